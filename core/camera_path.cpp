@@ -1,0 +1,59 @@
+#include "core/camera_path.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "core/internal/toml_table.h"
+
+namespace vindu {
+
+CameraPath::CameraPath(std::vector<PathKey> keys, double closing_s)
+    : keys_(std::move(keys)), closing_s_(closing_s) {
+  assert(keys_.size() >= 2 && closing_s_ > 0);
+}
+
+double CameraPath::span_s(std::size_t from) const {
+  return from + 1 < keys_.size() ? keys_[from + 1].t_s - keys_[from].t_s : closing_s_;
+}
+
+Vec3 CameraPath::tangent_m_s(std::size_t key) const {
+  const std::size_t before = wrapped(key + keys_.size() - 1), after = wrapped(key + 1);
+  return (keys_[after].eye_in_wall - keys_[before].eye_in_wall) / (span_s(before) + span_s(key));
+}
+
+Vec3 CameraPath::eye_at(double t_s) const {
+  double t = std::fmod(t_s, period_s());
+  if (t < 0) t += period_s();
+  std::size_t from = keys_.size() - 1;
+  while (from > 0 && keys_[from].t_s > t) --from;
+  const std::size_t to = wrapped(from + 1);
+  const double span = span_s(from), u = (t - keys_[from].t_s) / span;
+  const double u2 = u * u, u3 = u2 * u;
+  return (2 * u3 - 3 * u2 + 1) * keys_[from].eye_in_wall +
+         (u3 - 2 * u2 + u) * span * tangent_m_s(from) + (3 * u2 - 2 * u3) * keys_[to].eye_in_wall +
+         (u3 - u2) * span * tangent_m_s(to);
+}
+
+CameraPath read_camera_path(const std::string& file) {
+  const toml::table parsed = internal::parse_toml_file(file);
+  internal::Problems problems(file);
+  internal::TomlTable root(parsed, "", problems);
+  const double closing_s = root.number("closing_s", {0.01, 1e6}).value_or(1);
+  std::vector<PathKey> keys;
+  for (internal::TomlTable& table : root.tables("key")) {
+    table.require("t_s", "1.5");
+    table.require("eye_m", "[0, 0.1, 2]");
+    const double t_s = table.number("t_s", {0, 1e6}).value_or(0);
+    if (keys.empty() ? t_s != 0 : t_s <= keys.back().t_s)
+      table.fail("t_s", "the first key is at 0 and every other one later than the one before it");
+    keys.push_back({t_s, table.vec3("eye_m").value_or(Vec3::Zero())});
+    table.finish();
+  }
+  if (keys.size() < 2)
+    root.fail("key", "at least two [[key]] tables are needed, each with t_s and eye_m");
+  root.finish();
+  problems.throw_if_any();
+  return CameraPath(std::move(keys), closing_s);
+}
+
+}  // namespace vindu

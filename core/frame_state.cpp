@@ -1,0 +1,41 @@
+#include "core/frame_state.h"
+
+#include <array>
+#include <bit>
+
+namespace vindu {
+namespace {
+
+/// FNV-1a (Fowler, Noll, Vo), 64 bit.
+class Fnv1a {
+ public:
+  void add(std::uint64_t value) {
+    for (int byte = 0; byte < 8; ++byte)
+      hash_ = (hash_ ^ ((value >> (8 * byte)) & 0xff)) * 0x100000001b3ULL;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(const Vec3& value) {
+    for (const double part : value) add(part);
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace
+
+std::uint64_t hash_of(const FrameState& state) {
+  Fnv1a hash;
+  hash.add(state.number);
+  hash.add(static_cast<std::uint64_t>(state.photon_time.time_since_epoch().count()));
+  hash.add(state.eye_in_wall);
+  for (const double part : state.navigation.wall_from_scene.rotation.coeffs()) hash.add(part);
+  hash.add(state.navigation.wall_from_scene.translation);
+  hash.add(state.navigation.scale);
+  hash.add(state.animation_time_s);
+  hash.add(static_cast<std::uint64_t>(state.mode));
+  return hash.value();
+}
+
+}  // namespace vindu

@@ -1,0 +1,39 @@
+// Everything that a tile needs to draw frame n, whole and idempotent: a tile that has just started
+// needs the newest one and nothing else.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "core/clock.h"
+#include "core/rigid3.h"
+
+namespace vindu {
+
+enum class Mode { loop, touch, track };
+
+constexpr std::string_view name_of(Mode mode) {
+  constexpr std::string_view names[] = {"loop", "touch", "track"};
+  return names[static_cast<int>(mode)];
+}
+
+/// Where the scene stands: wall_from_scene, with a uniform scale applied first.
+struct Navigation {
+  Rigid3 wall_from_scene;
+  double scale = 1;
+};
+
+struct FrameState {
+  std::uint64_t number = 0;
+  Time photon_time{};  ///< when its light is expected to leave the wall; the master's clock
+  Vec3 eye_in_wall = Vec3(0, 0.10, 2.0);
+  Navigation navigation;
+  double animation_time_s = 0;
+  Mode mode = Mode::track;
+};
+
+/// 64-bit FNV-1a over every field's bytes, little endian: two tiles with one hash draw the same
+/// frame.
+std::uint64_t hash_of(const FrameState& state);
+
+}  // namespace vindu

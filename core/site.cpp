@@ -1,0 +1,250 @@
+#include "core/site.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/internal/toml_table.h"
+
+namespace vindu {
+namespace {
+
+using internal::Problems;
+using internal::Range;
+using internal::TomlTable;
+
+constexpr Range kRotationsRange{0, 270};
+
+/// Mount fields of a table on top of what holds for the whole wall.
+TileMount read_mount(TomlTable& table, TileMount mount) {
+  mount.mirror = table.boolean("mirror").value_or(mount.mirror);
+  mount.rotate_deg = table.integer("rotate_deg", kRotationsRange).value_or(mount.rotate_deg);
+  if (mount.rotate_deg % 90 != 0) table.fail("rotate_deg", "0, 90, 180 or 270 is allowed");
+  return mount;
+}
+
+WallGrid read_grid(TomlTable& table) {
+  for (const char* name : {"columns", "rows"}) table.require(name, "4");
+  for (const char* name : {"width_m", "height_m"}) table.require(name, "2.238");
+  for (const char* name : {"tile_width_px", "tile_height_px"}) table.require(name, "1024");
+  WallGrid grid;
+  grid.columns = table.integer("columns", {1, 64}).value_or(1);
+  grid.rows = table.integer("rows", {1, 64}).value_or(1);
+  grid.width_m = table.number("width_m", {0.01, 100}).value_or(1);
+  grid.height_m = table.number("height_m", {0.01, 100}).value_or(1);
+  grid.tile_width_px = table.integer("tile_width_px", {8, 16384}).value_or(8);
+  grid.tile_height_px = table.integer("tile_height_px", {8, 16384}).value_or(8);
+  grid.bezel_x_mm = table.number("bezel_x_mm", {0, 1000}).value_or(0);
+  grid.bezel_y_mm = table.number("bezel_y_mm", {0, 1000}).value_or(0);
+  grid.curve_deg = table.number("curve_deg", {0, 180}).value_or(0);
+  grid.hosts = table.text("hosts").value_or(grid.hosts);
+  grid.mount = read_mount(table, {});
+  if (1e-3 * grid.bezel_x_mm * (grid.columns - 1) >= grid.width_m)
+    table.fail("bezel_x_mm", "leaves no width for the pictures; make it smaller than the wall");
+  if (1e-3 * grid.bezel_y_mm * (grid.rows - 1) >= grid.height_m)
+    table.fail("bezel_y_mm", "leaves no height for the pictures; make it smaller than the wall");
+  return grid;
+}
+
+/// Corners must span a screen: edges of some length, within 2 degrees of a right angle.
+void check_corners(TomlTable& table, const TileCorners& corners) {
+  if (corners.width_m() < 1e-3 || corners.height_m() < 1e-3)
+    return table.fail("lower_left_m", "the three corners enclose no area; measure them again");
+  const Vec3 right = (corners.lower_right_in_wall - corners.lower_left_in_wall).normalized();
+  const Vec3 up = (corners.upper_left_in_wall - corners.lower_left_in_wall).normalized();
+  if (std::abs(right.dot(up)) > std::sin(radians(2)))
+    table.fail(
+        "lower_left_m",
+        "the edges do not meet at a right angle within 2 degrees; measure the corners again");
+}
+
+std::optional<TileCorners> read_corners(TomlTable& table) {
+  const auto lower_left = table.vec3("lower_left_m");
+  const auto lower_right = table.vec3("lower_right_m");
+  const auto upper_left = table.vec3("upper_left_m");
+  if (!lower_left && !lower_right && !upper_left) return std::nullopt;
+  if (!lower_left || !lower_right || !upper_left) {
+    table.fail("lower_left_m",
+               "a tile's own place needs lower_left_m, lower_right_m and upper_left_m together");
+    return std::nullopt;
+  }
+  const TileCorners corners{*lower_left, *lower_right, *upper_left};
+  check_corners(table, corners);
+  return corners;
+}
+
+std::vector<TileOverride> read_overrides(TomlTable& root, const WallGrid& grid) {
+  std::vector<std::string> names;
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column) names.push_back(tile_name(column, row));
+  std::vector<TileOverride> overrides;
+  for (TomlTable& table : root.tables("tile")) {
+    table.require("name", "\"tile-0-0\"");
+    TileOverride change;
+    change.name = table.one_of("name", names).value_or("");
+    if (std::ranges::find(overrides, change.name, &TileOverride::name) != overrides.end())
+      table.fail("name",
+                 "\"" + change.name + "\" is described twice; put its fields into one [[tile]]");
+    change.host = table.text("host");
+    change.corners = read_corners(table);
+    change.mount = read_mount(table, grid.mount);
+    table.finish();
+    overrides.push_back(std::move(change));
+  }
+  return overrides;
+}
+
+void read_wall(TomlTable& root, Site& site) {
+  root.require("wall", "{ columns = 7, rows = 4, width_m = 5.185, ... }");
+  auto table = root.table("wall");
+  if (!table) return;
+  const WallGrid grid = read_grid(*table);
+  site.rate_hz = table->number("rate_hz", {1, 1000}).value_or(site.rate_hz);
+  const double height_m =
+      table->number("centre_height_m", {-100, 100}).value_or(kDefaultCentreHeight_m);
+  const double tilt_deg = table->number("tilt_deg", {-90, 90}).value_or(0);
+  table->finish();
+  site.wall = expand_wall(grid, read_overrides(root, grid), room_from_wall_at(height_m, tilt_deg));
+}
+
+void read_viewer(TomlTable& root, ViewerConfig& viewer) {
+  auto table = root.table("viewer");
+  if (!table) return;
+  viewer.default_eye_in_wall = table->vec3("default_eye_m").value_or(viewer.default_eye_in_wall);
+  viewer.display_latency_ms =
+      table->number("display_latency_ms", {0, 1000}).value_or(viewer.display_latency_ms);
+  table->finish();
+}
+
+void read_head(TomlTable& root, HeadConfig& head) {
+  auto table = root.table("head");
+  if (!table) return;
+  head.leds_in_head = table->vec3s("leds_m", 1, 16).value_or(head.leds_in_head);
+  head.eye_in_head = table->vec3("eye_m", {-1, 1}).value_or(head.eye_in_head);
+  table->finish();
+}
+
+void read_scene(TomlTable& root, SceneConfig& scene) {
+  auto table = root.table("scene");
+  if (!table) return;
+  scene.model = table->text("model").value_or(scene.model);
+  const auto place = table->one_of("place", {"fit", "life-size", "as-is"});
+  if (place) scene.place = *placement_from(*place);
+  table->finish();
+}
+
+Intrinsics read_intrinsics(TomlTable& table) {
+  Intrinsics intrinsics;
+  intrinsics.fx_px = intrinsics.fy_px =
+      table.number("focal_px", {10, 1e5}).value_or(intrinsics.fx_px);
+  intrinsics.fy_px *= table.number("focal_aspect", {0.5, 2}).value_or(1);
+  if (const auto centre = table.numbers("centre_px", 2, {-1e4, 1e4})) {
+    intrinsics.cx_px = (*centre)[0];
+    intrinsics.cy_px = (*centre)[1];
+  }
+  if (const auto values = table.numbers("distortion", 5, {-10, 10}))
+    std::ranges::copy(*values, intrinsics.distortion.begin());
+  return intrinsics;
+}
+
+Rigid3 read_camera_pose(TomlTable& table) {
+  table.require("position_m", "[-1.0, 2.3, 5.0]");
+  const Vec3 position = table.vec3("position_m").value_or(Vec3::Zero());
+  const auto target = table.vec3("look_at_m");
+  const auto heading_deg = table.number("heading_deg", {-360, 360});
+  const auto pitch_deg = table.number("pitch_deg", {-360, 360});
+  const auto roll_deg = table.number("roll_deg", {-360, 360});
+  const bool angles = heading_deg || pitch_deg || roll_deg;
+  if (angles && target)
+    table.fail("look_at_m", "stands beside heading_deg, pitch_deg or roll_deg; give one of both");
+  if (angles)
+    return camera_from_thesis_angles(position, radians(heading_deg.value_or(0)),
+                                     radians(pitch_deg.value_or(90)),
+                                     radians(roll_deg.value_or(0)));
+  if (!target) {
+    if (!table.has("look_at_m"))
+      table.fail(
+          "look_at_m",
+          "is missing; write look_at_m = [0, 1.65, 2.0], or heading_deg, pitch_deg, roll_deg");
+    return {};
+  }
+  if ((*target - position).norm() < 1e-3)
+    table.fail("look_at_m", "is where the camera stands; look somewhere else");
+  return look_at(position, *target);
+}
+
+CameraSource source_from(const std::string& name) {
+  return name == "wiimote" ? CameraSource::wiimote
+         : name == "video" ? CameraSource::video
+                           : CameraSource::emulated;
+}
+
+void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
+  for (TomlTable& table : root.tables("camera")) {
+    table.require("name", "\"left\"");
+    table.require("source", "\"emulated\"");
+    CameraConfig camera;
+    camera.name = table.text("name").value_or("");
+    if (std::ranges::find(cameras, camera.name, &CameraConfig::name) != cameras.end())
+      table.fail("name", "\"" + camera.name + "\" stands twice; give every camera its own name");
+    camera.source =
+        source_from(table.one_of("source", {"emulated", "wiimote", "video"}).value_or("emulated"));
+    camera.address = table.text("address").value_or("");
+    camera.intrinsics = read_intrinsics(table);
+    camera.room_from_camera = read_camera_pose(table);
+    table.finish();
+    cameras.push_back(std::move(camera));
+  }
+}
+
+}  // namespace
+
+Site read_site(const std::string& file) {
+  const toml::table parsed = internal::parse_toml_file(file);
+  Problems problems(file);
+  TomlTable root(parsed, "", problems);
+  Site site;
+  read_wall(root, site);
+  read_viewer(root, site.viewer);
+  read_head(root, site.head);
+  read_scene(root, site.scene);
+  read_cameras(root, site.cameras);
+  root.has("tile");  // read with the wall, known even where that failed
+  root.finish();
+  problems.throw_if_any();
+  if (!site.scene.model.empty())
+    site.scene.model = (std::filesystem::path(file).parent_path() / site.scene.model).string();
+  return site;
+}
+
+std::string name_of(CameraSource source) {
+  return source == CameraSource::wiimote ? "wiimote"
+         : source == CameraSource::video ? "video"
+                                         : "emulated";
+}
+
+std::optional<Placement> placement_from(std::string_view name) {
+  if (name == "fit") return Placement::fit;
+  if (name == "life-size") return Placement::life_size;
+  if (name == "as-is") return Placement::as_is;
+  return std::nullopt;
+}
+
+Rigid3 look_at(const Vec3& position_in_room, const Vec3& target_in_room) {
+  const Vec3 forward = (target_in_room - position_in_room).normalized();
+  const bool vertical = std::abs(forward.y()) > 1 - 1e-9;
+  const Vec3 right = forward.cross(vertical ? Vec3::UnitZ() : Vec3::UnitY()).normalized();
+  Mat3 rotation;
+  rotation << right, forward.cross(right), forward;
+  return Rigid3::from(rotation, position_in_room);
+}
+
+Rigid3 camera_from_thesis_angles(const Vec3& position_in_room, double heading_rad, double pitch_rad,
+                                 double roll_rad) {
+  const Mat3 upright_from_opencv = Vec3(1, -1, -1).asDiagonal();
+  return Rigid3::from(room_from_thesis_world() * thesis_rotation(heading_rad, pitch_rad, roll_rad) *
+                          upright_from_opencv,
+                      position_in_room);
+}
+
+}  // namespace vindu

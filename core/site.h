@@ -1,0 +1,82 @@
+// One file describes a site: wall.toml, as plain values with defaults. Reading checks every field
+// and reports all errors at once, each with file, line, field, value and what is allowed.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/wall.h"
+
+namespace vindu {
+
+/// OpenCV's pinhole model with distortion; pixels.
+struct Intrinsics {
+  double fx_px = 1335;  ///< a Wiimote's: published values span 1280 to 1430
+  double fy_px = 1335;
+  double cx_px = 512;
+  double cy_px = 384;
+  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3
+
+  bool operator==(const Intrinsics&) const = default;
+};
+
+enum class CameraSource { emulated, wiimote, video };
+
+struct CameraConfig {
+  std::string name;
+  CameraSource source = CameraSource::emulated;
+  std::string address;  ///< of the device; empty: any
+  Intrinsics intrinsics;
+  Rigid3 room_from_camera;  ///< camera: +x right, +y down, +z along the optical axis
+};
+
+/// The tracked head: its LEDs and the point between both eyes, in head (+x right, +y up, -z
+/// forward; metres).
+struct HeadConfig {
+  std::vector<Vec3> leds_in_head = {{-0.09, 0, -0.09}, {0, 0, 0}, {0.09, 0, -0.09}};
+  Vec3 eye_in_head = {0, -0.10, -0.19};
+};
+
+struct ViewerConfig {
+  Vec3 default_eye_in_wall = {0, 0.10, 2.0};
+  double display_latency_ms = 0;  ///< from the swap to the light
+};
+
+enum class Placement {
+  fit,        ///< scaled to the wall
+  life_size,  ///< in metres, if the file states its unit
+  as_is,      ///< the model's coordinates are wall coordinates in metres
+};
+
+struct SceneConfig {
+  std::string model;  ///< path, relative to the wall file; empty: none
+  Placement place = Placement::fit;
+};
+
+struct Site {
+  Wall wall;
+  double rate_hz = 60;
+  ViewerConfig viewer;
+  HeadConfig head;
+  std::vector<CameraConfig> cameras;
+  SceneConfig scene;
+};
+
+/// Throws Error with one line for each thing that is wrong.
+Site read_site(const std::string& file);
+
+/// `source` for people: "emulated", "wiimote", "video".
+std::string name_of(CameraSource source);
+
+std::optional<Placement> placement_from(std::string_view name);
+
+/// Camera that stands at `position_in_room` and looks at a point, its image upright.
+Rigid3 look_at(const Vec3& position_in_room, const Vec3& target_in_room);
+
+/// Camera with the thesis' angles, its position already in room.
+Rigid3 camera_from_thesis_angles(const Vec3& position_in_room, double heading_rad, double pitch_rad,
+                                 double roll_rad);
+
+}  // namespace vindu

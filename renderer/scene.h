@@ -1,0 +1,98 @@
+// A scene in memory as plain values: what an importer makes and what the GPU gets. Geometry of all
+// meshes lies in one vertex and one index array. Units and axes are the file's; Placement decides
+// how it stands before the wall.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/image.h"
+
+namespace vindu {
+
+/// 36 bytes, uploaded as it is.
+struct Vertex {
+  Eigen::Vector3f position_in_node = Eigen::Vector3f::Zero();
+  Eigen::Vector3f normal_in_node = Eigen::Vector3f::UnitZ();
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< (0, 0) is the upper left of the texture
+  Rgba8 colour = {255, 255, 255, 255};           ///< linear, times the material's base colour
+};
+static_assert(sizeof(Vertex) == 36);
+
+enum class AlphaMode { opaque, mask, blend };
+
+/// Metallic-roughness as glTF 2.0 (section 3.9) defines it. Colours are linear.
+struct Material {
+  std::string name;
+  Eigen::Vector4f base_colour = Eigen::Vector4f::Ones();
+  int base_colour_texture = -1;  ///< index into Scene::textures, or -1
+  float metallic = 0;
+  float roughness = 0.6f;
+  Eigen::Vector3f emissive = Eigen::Vector3f::Zero();
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+};
+
+using Box3f = Eigen::AlignedBox3f;
+
+struct Mesh {
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;  ///< triangles: a multiple of 3; indices are absolute
+  int material = 0;
+  Box3f bounds_in_node;
+};
+
+/// Parents come before their children; node 0 is the root.
+struct Node {
+  std::string name;
+  int parent = -1;
+  Eigen::Matrix4f parent_from_node = Eigen::Matrix4f::Identity();
+  std::vector<int> meshes;
+};
+
+template <class Value>
+struct Key {
+  double t_s = 0;
+  Value value;
+};
+
+/// Keys in order of time; an empty list leaves that part of the node's transform as it is.
+struct AnimationChannel {
+  int node = 0;
+  std::vector<Key<Eigen::Vector3f>> translations;
+  std::vector<Key<Eigen::Quaternionf>> rotations;
+  std::vector<Key<Eigen::Vector3f>> scales;
+};
+
+struct Animation {
+  std::string name;
+  double duration_s = 0;
+  std::vector<AnimationChannel> channels;
+};
+
+struct Scene {
+  std::string name;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials;  ///< at least one where there is a mesh
+  std::vector<Image> textures;      ///< sRGB
+  std::vector<Node> nodes;
+  std::vector<Animation> animations;
+  std::optional<double> metres_per_unit;  ///< empty: the file does not say
+
+  std::size_t triangle_count() const { return indices.size() / 3; }
+};
+
+/// scene_from_node of every node at a time, the first animation played round and round.
+std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s);
+
+/// Of all meshes at rest.
+Box3f bounds_in_scene(const Scene& scene);
+
+}  // namespace vindu
