@@ -36,6 +36,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
+  bool unlit = false;  ///< KHR_materials_unlit: the base colour as it is
 };
 
 using Box3f = Eigen::AlignedBox3f;
