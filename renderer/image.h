@@ -28,15 +28,19 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
+/// Larger pictures are neither read nor decoded: 1 GiB in memory.
+constexpr std::size_t kMaxImagePixels = std::size_t{1} << 28;
+
 /// Opaque RGB; alpha is dropped. Throws Error when the file cannot be written.
 void write_png(const Image& image, const std::string& file);
 
 /// Throws Error when the file cannot be read.
 Image read_png(const std::string& file);
 
-/// PNG, JPEG, TGA, BMP, GIF, PSD or PNM bytes (stb_image); empty when they are none of these, or
-/// broken.
-std::optional<Image> decode_image(std::span<const std::uint8_t> bytes);
+/// PNG, JPEG, TGA, BMP, GIF, PSD or PNM bytes (stb_image); empty when they are none of these,
+/// broken, larger than `max_pixels`, or claim more pixels than so few bytes can hold.
+std::optional<Image> decode_image(std::span<const std::uint8_t> bytes,
+                                  std::size_t max_pixels = kMaxImagePixels);
 
 /// Copies `part` into `whole`, its upper left pixel at (x, y); what would fall outside is cut.
 void paste(const Image& part, int x, int y, Image& whole);

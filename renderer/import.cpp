@@ -1,0 +1,207 @@
+#include "renderer/import.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <filesystem>
+#include <new>
+
+#include "core/error.h"
+#include "renderer/import_file.h"
+#include "renderer/import_geometry.h"
+#include "renderer/import_materials.h"
+#include "renderer/import_nodes.h"
+#include "renderer/import_textures.h"
+
+namespace vindu {
+namespace {
+
+constexpr const char* kBrokenRemedy =
+    "open it in the program that made it and export it again, best as .glb";
+
+/// Cutting a polygon into triangles takes time with the square of its corners.
+constexpr unsigned kMaxPolygonCorners = 20'000;
+
+/// Assimp's messages end in line breaks and may hold a whole line of the file.
+std::string one_line(const char* message) {
+  constexpr std::size_t enough = 200;
+  std::string line(message);
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line.size() > enough ? line.substr(0, enough) + "..." : line;
+}
+
+[[noreturn]] void throw_broken(const std::string& file, const std::string& why) {
+  throw Error(
+      {"cannot be read as a model" + (why.empty() ? "" : " (" + why + ")"), file, kBrokenRemedy});
+}
+
+/// What triangulation would trip over, and how much there is of it.
+void check_faces(const aiScene& source, const std::string& file, const ImportLimits& limits) {
+  std::size_t triangles = 0;
+  for (unsigned m = 0; m < source.mNumMeshes; ++m) {
+    const aiMesh& mesh = *source.mMeshes[m];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices >= 3) triangles += face.mNumIndices - 2;
+      if (face.mNumIndices > kMaxPolygonCorners)
+        throw Error({"has a polygon of " + std::to_string(face.mNumIndices) + " corners", file,
+                     "cut its polygons into triangles when exporting"});
+      for (unsigned i = 0; face.mNumIndices > 3 && i < face.mNumIndices; ++i)
+        if (face.mIndices[i] >= mesh.mNumVertices)
+          throw_broken(file, "a polygon names a vertex that is not there");
+    }
+  }
+  if (triangles > limits.triangles)
+    throw Error({"has " + std::to_string(triangles) + " triangles, the limit is " +
+                     std::to_string(limits.triangles),
+                 file, "reduce the model or split it"});
+}
+
+/// Owned by `importer`.
+const aiScene& read_with_assimp(Assimp::Importer& importer, const std::string& file,
+                                const ImportLimits& limits) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  const aiScene* source = importer.ReadFile(file, 0);
+  if (!source || !source->mRootNode) throw_broken(file, one_line(importer.GetErrorString()));
+  check_faces(*source, file, limits);
+  source = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (!source) throw_broken(file, one_line(importer.GetErrorString()));
+  return *source;
+}
+
+/// glTF 2.0 (3.4) and X3D (4.3.6) are in metres; Collada's loader already scales the root by the
+/// file's unit; FBX states centimetres per unit and its loader leaves them.
+std::optional<double> metres_per_unit(const aiScene& source, const std::string& extension) {
+  for (const char* metric : {".gltf", ".glb", ".vrm", ".x3d", ".x3db", ".wrl", ".dae", ".zae"})
+    if (extension == metric) return 1.0;
+  float centimetres = 0;
+  if (extension == ".fbx" && source.mMetaData &&
+      source.mMetaData->Get("UnitScaleFactor", centimetres) && std::isfinite(centimetres) &&
+      centimetres > 0)
+    return static_cast<double>(centimetres) / 100;
+  return std::nullopt;
+}
+
+/// Assimp 5.2 reads an FBX file's axes but does not apply them. Rows are the file's directions of
+/// right and up, and of what then comes towards the viewer.
+std::optional<Eigen::Matrix4f> upright_from_fbx(const aiScene& source) {
+  int up = 1;
+  int up_sign = 1;
+  int right = 0;
+  int right_sign = 1;
+  if (!source.mMetaData || !source.mRootNode->mTransformation.IsIdentity() ||
+      !source.mMetaData->Get("UpAxis", up) || !source.mMetaData->Get("UpAxisSign", up_sign) ||
+      !source.mMetaData->Get("CoordAxis", right) ||
+      !source.mMetaData->Get("CoordAxisSign", right_sign))
+    return std::nullopt;
+  if (up < 0 || up > 2 || right < 0 || right > 2 || up == right) return std::nullopt;
+  const Eigen::Vector3f x = Eigen::Vector3f::Unit(right) * (right_sign < 0 ? -1.0f : 1.0f);
+  const Eigen::Vector3f y = Eigen::Vector3f::Unit(up) * (up_sign < 0 ? -1.0f : 1.0f);
+  Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
+  matrix.topLeftCorner<3, 3>() << x.transpose(), y.transpose(), x.cross(y).transpose();
+  return matrix;
+}
+
+void warn_of(const MeshLosses& losses, std::vector<std::string>& warnings) {
+  const auto warn = [&](std::size_t count, const char* what) {
+    if (count > 0) warnings.push_back(std::to_string(count) + what);
+  };
+  warn(losses.broken_triangles, " broken triangles are left out");
+  warn(losses.points_and_lines, " points and lines are left out");
+  warn(losses.skinned_meshes, " meshes have bones; they are shown in their rest position");
+  warn(losses.morphed_meshes, " meshes have morph targets, which do not move");
+}
+
+/// Meshes that no node shows cost nothing.
+std::vector<bool> meshes_in_use(const aiScene& source) {
+  std::vector<bool> used(source.mNumMeshes, false);
+  std::vector<const aiNode*> nodes = {source.mRootNode};
+  while (!nodes.empty()) {
+    const aiNode& node = *nodes.back();
+    nodes.pop_back();
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+      if (node.mMeshes[i] < used.size()) used[node.mMeshes[i]] = true;
+    nodes.insert(nodes.end(), node.mChildren, node.mChildren + node.mNumChildren);
+  }
+  return used;
+}
+
+/// Fills meshes, vertices, indices, materials and textures; returns the scene's mesh for each of
+/// Assimp's, or -1.
+std::vector<int> import_meshes(const aiScene& source, const std::string& file,
+                               const ImportLimits& limits, ImportResult& result) {
+  Scene& scene = result.scene;
+  const MaterialStyle style = material_style(source, file);
+  TextureImporter textures(source, std::filesystem::path(file).parent_path(), limits.texture_pixels,
+                           result.warnings);
+  MaterialImporter materials(source, style, textures, result.warnings);
+  MeshLosses losses;
+  std::vector<int> mesh_of_source(source.mNumMeshes, -1);
+  const std::vector<bool> used = meshes_in_use(source);
+  for (unsigned i = 0; i < source.mNumMeshes; ++i) {
+    if (!used[i]) continue;
+    const aiMesh& source_mesh = *source.mMeshes[i];
+    const ImportedMaterial material =
+        materials.import(source_mesh.mMaterialIndex, source_mesh.HasVertexColors(0));
+    std::optional<Mesh> mesh = append_mesh(
+        source_mesh, {material.uv_channel, style == MaterialStyle::gltf}, scene, losses);
+    if (!mesh) continue;
+    mesh->material = material.index;
+    mesh_of_source[i] = static_cast<int>(scene.meshes.size());
+    scene.meshes.push_back(*mesh);
+  }
+  scene.materials = materials.take();
+  scene.textures = textures.take();
+  warn_of(losses, result.warnings);
+  return mesh_of_source;
+}
+
+/// A picture needs triangles, and triangles that are somewhere.
+void check_drawable(const Scene& scene, const std::string& file) {
+  if (scene.indices.empty())
+    throw Error({"has no triangles to draw", file,
+                 "export it as a mesh; points, lines and curves are not drawn"});
+  const Box3f bounds = bounds_in_scene(scene);
+  if (bounds.isEmpty() || !bounds.diagonal().allFinite() || !bounds.center().allFinite())
+    throw_broken(file, "its size is not finite");
+  if (!(bounds.diagonal().norm() > 0)) throw_broken(file, "all its points are in one place");
+}
+
+ImportResult converted(const aiScene& source, const std::string& file, const ImportLimits& limits) {
+  ImportResult result;
+  Scene& scene = result.scene;
+  scene.name = std::filesystem::path(file).stem().string();
+  const std::vector<int> mesh_of_source = import_meshes(source, file, limits, result);
+  scene.nodes = import_nodes(source, mesh_of_source, result.warnings);
+  scene.animations = import_animations(source, scene.nodes);
+  const std::string extension = lower_extension(file);
+  scene.metres_per_unit = metres_per_unit(source, extension);
+  if (extension == ".fbx")
+    if (const std::optional<Eigen::Matrix4f> upright = upright_from_fbx(source))
+      scene.nodes.front().parent_from_node = *upright;
+  check_drawable(scene, file);
+  return result;
+}
+
+}  // namespace
+
+ImportResult import_scene(const std::string& file, const ImportLimits& limits) {
+  check_model_file(file, limits.file_bytes);
+  try {
+    Assimp::Importer importer;
+    return converted(read_with_assimp(importer, file, limits), file, limits);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error({"needs more memory than there is", file, "reduce the model or split it"});
+  } catch (const std::exception& error) {
+    throw_broken(file, one_line(error.what()));
+  }
+}
+
+}  // namespace vindu

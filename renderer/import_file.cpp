@@ -1,0 +1,124 @@
+#include "renderer/import_file.h"
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <vector>
+
+#include "core/error.h"
+
+namespace vindu {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCommonFormats =
+    "common ones are .glb, .gltf, .obj, .ply, .fbx, .dae, .stl, .3ds, .blend and .x3d";
+
+std::string shown_size(std::uintmax_t bytes) {
+  constexpr std::array<const char*, 4> units = {"bytes", "KiB", "MiB", "GiB"};
+  double value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < units.size(); ++unit) value /= 1024;
+  std::ostringstream out;
+  out << std::setprecision(3) << value << ' ' << units[unit];
+  return out.str();
+}
+
+/// The file of the same folder that was probably meant; empty when none is near.
+std::string likely_name(const fs::path& missing) {
+  constexpr std::size_t enough = 1000;
+  const fs::path folder = missing.has_parent_path() ? missing.parent_path() : fs::path(".");
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    names.push_back(entry->path().filename().string());
+    if (names.size() == enough) break;
+  }
+  return nearest_name(missing.filename().string(), names);
+}
+
+void check_exists(const std::string& file, const fs::file_status& status) {
+  if (fs::exists(status)) return;
+  const std::string likely = likely_name(file);
+  throw Error({"no such file", file,
+               likely.empty() ? "give the path of a model file" : "did you mean " + likely + "?"});
+}
+
+void check_kind(const std::string& file, const fs::file_status& status) {
+  if (fs::is_directory(status))
+    throw Error({"is a folder, not a model", file, "name the model file inside it"});
+  if (!fs::is_regular_file(status))
+    throw Error({"is a device or a pipe, not a file", file, "copy the model into a file first"});
+}
+
+void check_size(const std::string& file, std::uintmax_t max_bytes) {
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(file, error);
+  if (error) throw Error({"its size is not known (" + error.message() + ")", file, ""});
+  if (bytes == 0) throw Error({"the file is empty", file, "export or copy the model once more"});
+  if (bytes > max_bytes)
+    throw Error({"the file has " + shown_size(bytes) + ", the limit is " + shown_size(max_bytes),
+                 file, "reduce the model or split it"});
+}
+
+void check_readable(const std::string& file) {
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || stream.get() == std::ifstream::traits_type::eof())
+    throw Error({std::string("cannot be opened: ") + std::strerror(errno ? errno : EIO), file,
+                 "check the permissions of the file and its folders"});
+}
+
+bool one_of(const std::string& extension, std::initializer_list<std::string_view> extensions) {
+  return std::ranges::find(extensions, extension) != extensions.end();
+}
+
+void check_format(const std::string& file) {
+  const std::string extension = lower_extension(file);
+  if (one_of(extension, {".osg", ".osgt", ".osgb", ".osgx", ".ive"}))
+    throw Error(
+        {"OpenSceneGraph's own formats are not read", file,
+         "convert it with OpenSceneGraph's tool: osgconv model" + extension + " model.obj"});
+  if (extension.empty())
+    throw Error({"the file name has no extension, so its format is not known", file,
+                 std::string("name it after its format; ") + kCommonFormats});
+  if (one_of(extension, {".png", ".jpg", ".jpeg", ".tga", ".bmp", ".gif", ".tif", ".tiff"}))
+    throw Error(
+        {"is a picture, not a model", file, std::string("give a model; ") + kCommonFormats});
+  if (!Assimp::Importer().IsExtensionSupported(extension))
+    throw Error({"models in the format " + extension + " are not read", file,
+                 std::string("convert it; ") + kCommonFormats});
+}
+
+}  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+std::string lower_extension(const std::string& file) {
+  return lower_case(fs::path(file).extension().string());
+}
+
+void check_model_file(const std::string& file, std::uintmax_t max_bytes) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  check_exists(file, status);
+  check_kind(file, status);
+  check_format(file);
+  check_size(file, max_bytes);
+  check_readable(file);
+}
+
+}  // namespace vindu

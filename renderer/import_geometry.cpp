@@ -1,0 +1,180 @@
+#include "renderer/import_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/import_dedupe.h"
+#include "renderer/import_normals.h"
+
+namespace vindu {
+namespace {
+
+/// Farther away than any model reaches; squares of it are still finite floats.
+constexpr float kMaxCoordinate = 1e18f;
+
+bool usable_position(const aiVector3D& v) {
+  return std::abs(v.x) < kMaxCoordinate && std::abs(v.y) < kMaxCoordinate &&
+         std::abs(v.z) < kMaxCoordinate;  // false for NaN
+}
+
+/// Adding zero turns -0 into 0, so that equal vertices have equal bytes.
+Eigen::Vector3f vector_of(const aiVector3D& v) { return {v.x + 0.0f, v.y + 0.0f, v.z + 0.0f}; }
+
+/// Empty where the file's normal gives no direction.
+std::optional<Eigen::Vector3f> unit_normal(const aiMesh& mesh, unsigned vertex) {
+  if (!mesh.HasNormals() || !usable_position(mesh.mNormals[vertex])) return std::nullopt;
+  const Eigen::Vector3f normal = vector_of(mesh.mNormals[vertex]).stableNormalized();
+  if (std::abs(normal.norm() - 1) > 1e-3f) return std::nullopt;
+  return Eigen::Vector3f(normal + Eigen::Vector3f::Zero());
+}
+
+/// Assimp's (0, 0) is the lower left of the texture, ours the upper left.
+Eigen::Vector2f uv_of(const aiMesh& mesh, unsigned channel, unsigned vertex) {
+  const aiVector3D& uv = mesh.mTextureCoords[channel][vertex];
+  if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return Eigen::Vector2f::Zero();
+  return {uv.x + 0.0f, 1.0f - uv.y};
+}
+
+std::uint8_t byte_of(float value) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+}
+
+Rgba8 colour_of(const aiColor4D& colour, bool linear) {
+  const auto decoded = [&](float value) {
+    if (!std::isfinite(value)) return 1.0f;
+    return linear ? value : linear_from_srgb(std::clamp(value, 0.0f, 1.0f));
+  };
+  return {byte_of(decoded(colour.r)), byte_of(decoded(colour.g)), byte_of(decoded(colour.b)),
+          byte_of(std::isfinite(colour.a) ? colour.a : 1.0f)};
+}
+
+/// Some writers leave all colours black or all alpha zero where they mean that there is none.
+struct ColourUse {
+  bool rgb = false;
+  bool alpha = false;
+
+  explicit ColourUse(const aiMesh& mesh) {
+    if (!mesh.HasVertexColors(0)) return;
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiColor4D& colour = mesh.mColors[0][i];
+      rgb = rgb || colour.r > 0 || colour.g > 0 || colour.b > 0;
+      alpha = alpha || colour.a > 0;
+    }
+  }
+};
+
+/// Reads single vertices of one mesh.
+class VertexReader {
+ public:
+  VertexReader(const aiMesh& mesh, const MeshOptions& options)
+      : mesh_(mesh),
+        colours_linear_(options.colours_linear),
+        colour_use_(mesh),
+        uv_channel_(mesh.HasTextureCoords(options.uv_channel) ? options.uv_channel : 0) {}
+
+  Vertex read(unsigned index, const Eigen::Vector3f& normal) const {
+    Vertex vertex;
+    vertex.position_in_node = vector_of(mesh_.mVertices[index]);
+    vertex.normal_in_node = normal;
+    if (mesh_.HasTextureCoords(uv_channel_)) vertex.uv = uv_of(mesh_, uv_channel_, index);
+    if (colour_use_.rgb) vertex.colour = colour_of(mesh_.mColors[0][index], colours_linear_);
+    if (!colour_use_.alpha) vertex.colour[3] = 255;
+    return vertex;
+  }
+
+ private:
+  const aiMesh& mesh_;
+  bool colours_linear_;
+  ColourUse colour_use_;
+  unsigned uv_channel_;
+};
+
+bool usable_triangle(const aiMesh& mesh, const aiFace& face) {
+  for (unsigned k = 0; k < 3; ++k) {
+    const unsigned index = face.mIndices[k];
+    if (index >= mesh.mNumVertices || !usable_position(mesh.mVertices[index])) return false;
+  }
+  return true;
+}
+
+/// Indices into the Assimp mesh, three for each triangle that can be drawn.
+std::vector<unsigned> usable_corners(const aiMesh& mesh, MeshLosses& losses) {
+  std::vector<unsigned> corners;
+  corners.reserve(std::size_t{3} * mesh.mNumFaces);
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const aiFace& face = mesh.mFaces[f];
+    if (face.mNumIndices != 3)
+      ++losses.points_and_lines;
+    else if (!usable_triangle(mesh, face))
+      ++losses.broken_triangles;
+    else
+      corners.insert(corners.end(), face.mIndices, face.mIndices + 3);
+  }
+  return corners;
+}
+
+bool all_have_normals(const aiMesh& mesh, const std::vector<unsigned>& corners) {
+  return std::ranges::all_of(corners, [&](unsigned i) { return unit_normal(mesh, i).has_value(); });
+}
+
+/// Every vertex as the file has it.
+void append_as_given(const aiMesh& mesh, const VertexReader& reader,
+                     const std::vector<unsigned>& corners, Scene& scene) {
+  constexpr std::uint32_t unset = 0xffffffff;
+  std::vector<std::uint32_t> scene_index(mesh.mNumVertices, unset);
+  Deduplicator<Vertex> table(scene.vertices,
+                             std::min<std::size_t>(corners.size(), mesh.mNumVertices));
+  for (const unsigned corner : corners) {
+    if (scene_index[corner] == unset)
+      scene_index[corner] = table.index_of(reader.read(corner, *unit_normal(mesh, corner)));
+    scene.indices.push_back(scene_index[corner]);
+  }
+}
+
+/// A vertex is split where its triangles do not share a normal.
+void append_with_normals(const aiMesh& mesh, const VertexReader& reader,
+                         const std::vector<unsigned>& corners, Scene& scene) {
+  std::vector<Eigen::Vector3f> positions;
+  positions.reserve(corners.size());
+  for (const unsigned corner : corners) positions.push_back(vector_of(mesh.mVertices[corner]));
+  const std::vector<Eigen::Vector3f> computed = corner_normals(positions);
+  Deduplicator<Vertex> table(scene.vertices, corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector3f normal = unit_normal(mesh, corners[i]).value_or(computed[i]);
+    scene.indices.push_back(table.index_of(reader.read(corners[i], normal)));
+  }
+}
+
+Box3f bounds_of(const Scene& scene, const Mesh& mesh) {
+  Box3f bounds;
+  for (std::uint32_t i = 0; i < mesh.index_count; ++i)
+    bounds.extend(scene.vertices[scene.indices[mesh.first_index + i]].position_in_node);
+  return bounds;
+}
+
+}  // namespace
+
+float linear_from_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+std::optional<Mesh> append_mesh(const aiMesh& source, const MeshOptions& options, Scene& scene,
+                                MeshLosses& losses) {
+  if (!source.HasPositions() || !source.HasFaces()) return std::nullopt;
+  const std::vector<unsigned> corners = usable_corners(source, losses);
+  if (corners.empty()) return std::nullopt;
+  losses.skinned_meshes += source.HasBones() ? 1 : 0;
+  losses.morphed_meshes += source.mNumAnimMeshes > 0 ? 1 : 0;
+  Mesh mesh;
+  mesh.first_index = static_cast<std::uint32_t>(scene.indices.size());
+  mesh.index_count = static_cast<std::uint32_t>(corners.size());
+  const VertexReader reader(source, options);
+  if (all_have_normals(source, corners))
+    append_as_given(source, reader, corners, scene);
+  else
+    append_with_normals(source, reader, corners, scene);
+  mesh.bounds_in_node = bounds_of(scene, mesh);
+  return mesh;
+}
+
+}  // namespace vindu
