@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Fails when a test was skipped or is disabled without standing in the list of skips.
 
-Usage: check_skips.py JUNIT.xml SKIPS.txt. The list has one test a line, its name as CTest prints it (`*` stands for
-anything), then the reason. Says nothing when all is well.
+Usage: check_skips.py JUNIT.xml SKIPS.txt. The list has one test a line, its name as CTest prints it
+(`*` stands for anything), then the reason. Says nothing when all is well.
 """
 import fnmatch
 import sys

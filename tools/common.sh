@@ -1,5 +1,5 @@
-# Shared by run and test, to be sourced by bash: installs the packages that are missing, configures, builds.
-# Everything that it says goes to the error stream; the output stream belongs to the program.
+# Shared by run and test, to be sourced by bash: installs the packages that are missing, configures,
+# builds. What it says goes to the error stream; the output stream belongs to the program.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -26,7 +26,8 @@ packages_of() {
 missing_packages() {
   local wanted present
   mapfile -t wanted < <(packages_of "$1")
-  present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null | sed -n 's/^installed //p')
+  present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
+    sed -n 's/^installed //p')
   comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) <(printf '%s\n' "$present" | sort -u)
 }
 
@@ -42,7 +43,8 @@ need_packages() {
   say "Missing Debian packages: ${missing[*]}"
   if [[ $(id -u) -ne 0 ]]; then
     command -v sudo >/dev/null ||
-      die "Only root can install them and there is no sudo. As root: apt-get install --no-install-recommends ${missing[*]}"
+      die "Only root can install them, and there is no sudo. As root:" \
+        "apt-get install --no-install-recommends ${missing[*]}"
     as_root=(sudo)
   fi
   say "Installing them (log: build/apt.log) ..."
@@ -56,7 +58,8 @@ need_packages() {
 # install_packages NAME...: with as_root of the caller in front of apt-get.
 install_packages() {
   local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q)
-  "${apt[@]}" update >"$root/build/apt.log" 2>&1 || say "apt-get update failed; trying with the lists that are here."
+  "${apt[@]}" update >"$root/build/apt.log" 2>&1 ||
+    say "apt-get update failed; trying with the lists that are here."
   "${apt[@]}" install -y --no-install-recommends "$@" >>"$root/build/apt.log" 2>&1
 }
 
@@ -80,16 +83,18 @@ configure() {
   die "The build of preset $preset could not be configured."
 }
 
-# build PRESET TARGET...: says nothing when there is nothing to do; a counter on a terminal, one line elsewhere.
+# build PRESET TARGET...: says nothing when there is nothing to do; a counter on a terminal, one
+# line elsewhere.
 build() {
   local preset=$1 log="$root/build/$1/build.log" line announced=
   shift
-  NINJA_STATUS='[%f/%t] ' cmake --build "$root/build/$preset" --target "$@" --parallel "$(jobs)" 2>&1 |
+  NINJA_STATUS='[%f/%t] ' cmake --build "$root/build/$preset" --target "$@" \
+    --parallel "$(jobs)" 2>&1 |
     tee "$log" |
     while IFS= read -r line; do
       [[ $line =~ ^\[([1-9][0-9]*)/([0-9]+)\]\  ]] || continue
       if [[ -t 2 ]]; then
-        printf '\r\033[KBuilding %s: %d of %d' "$preset" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" >&2
+        printf '\r\033[KBuilding %s: %d of %d' "$preset" "${BASH_REMATCH[@]:1:2}" >&2
       elif [[ -z $announced ]]; then
         say "Building $preset: ${BASH_REMATCH[2]} steps (log: build/$preset/build.log) ..."
       fi

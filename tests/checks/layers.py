@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""The layer rule over the includes: core <- tracker, cluster, renderer <- simulator <- app,
+siblings apart from each other, and every third-party library private to the folder that it
+belongs to.
+
+Usage: layers.py ROOT. Prints each include that breaks the rule; exit code 1 when there is one.
+"""
+import re
+import sys
+from pathlib import Path
+
+from sources import cpp_sources
+
+# Folder -> the folders whose headers it may include, besides its own.
+LAYERS = {
+    "core": set(),
+    "tracker": {"core"},
+    "cluster": {"core"},
+    "renderer": {"core"},
+    "simulator": {"core", "tracker", "cluster", "renderer"},
+    "app": {"core", "tracker", "cluster", "renderer", "simulator"},
+}
+
+# Library -> (how its headers begin, where they may show).
+LIBRARIES = {
+    "OpenCV": (r"opencv2/", r"tracker/.*"),
+    "GLFW": (r"GLFW/", r"renderer/.*"),
+    "EGL": (r"EGL/", r"renderer/.*"),
+    "epoxy": (r"epoxy/|GL/|GLES\d?/", r"renderer/.*"),
+    "Assimp": (r"assimp/", r"renderer/.*"),
+    "GLM": (r"glm/", r"renderer/.*"),
+    "libpng": (r"png\.h", r"renderer/.*"),
+    "stb": (r"stb(/|_)", r"renderer/.*"),
+    "toml++": (r"toml\+\+/|toml\.hpp", r"core/[^/]*\.cpp|core/internal/.*"),
+    "spdlog": (r"spdlog/|fmt/", r"core/[^/]*\.cpp|core/internal/.*"),
+    "CLI11": (r"CLI/", r"app/.*"),
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def broken_rule(file, header):
+    """Why `file` may not include `header`, or None. Both relative to the root."""
+    folder, target = file.split("/")[0], header.split("/")[0]
+    if target in LAYERS and target != folder and target not in LAYERS[folder]:
+        return f"{folder} does not know {target}"
+    if header.startswith("core/internal/") and folder != "core":
+        return "core/internal is core's own"
+    for library, (begins, places) in LIBRARIES.items():
+        if re.match(begins, header) and not re.fullmatch(places, file):
+            return f"{library} may show only in {places}"
+    return None
+
+
+def violations(root):
+    for path in cpp_sources(root):
+        file = path.as_posix()
+        if file.split("/")[0] not in LAYERS:  # tests and benches stand above all layers
+            continue
+        text = (Path(root) / path).read_text(encoding="utf-8")
+        for number, line in enumerate(text.splitlines(), 1):
+            include = INCLUDE.match(line)
+            reason = include and broken_rule(file, include.group(1))
+            if reason:
+                yield f"{file}:{number}: includes {include.group(1)}: {reason}"
+
+
+if __name__ == "__main__":
+    found = list(violations(sys.argv[1]))
+    print("\n".join(found) or "no include breaks the layer rule")
+    sys.exit(1 if found else 0)

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""The checks themselves: each finds a violation that is planted for it, and passes what is right.
+
+Usage: planted_test.py CLANG_FORMAT.
+"""
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import format as format_check
+import layers
+import shape
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+import check_skips  # noqa: E402
+
+
+class Planted(unittest.TestCase):
+    """A tree of its own for each test."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+
+class Layers(Planted):
+    def reasons(self, name, *headers):
+        self.write(name, "".join(f"#include {header}\n" for header in headers))
+        return list(layers.violations(self.root))
+
+    def test_a_sibling_may_not_be_included(self):
+        found = self.reasons("tracker/a.cpp", '"tracker/a.h"', '"renderer/image.h"')
+        self.assertEqual(
+            found, ["tracker/a.cpp:2: includes renderer/image.h: tracker does not know renderer"])
+
+    def test_a_lower_layer_does_not_know_a_higher_one(self):
+        for name, header in [("core/a.h", '"tracker/a.h"'), ("renderer/gl/a.h", '"app/a.h"'),
+                             ("cluster/a.cpp", '"simulator/a.h"')]:
+            with self.subTest(name):
+                self.assertEqual(len(self.reasons(name, header)), 1)
+                (self.root / name).unlink()
+
+    def test_a_higher_layer_knows_all_below(self):
+        self.assertEqual(self.reasons("app/main.cpp", '"core/a.h"', '"tracker/a.h"',
+                                      '"cluster/a.h"', '"renderer/a.h"', '"simulator/a.h"'), [])
+
+    def test_libraries_are_private_to_their_folder(self):
+        for name, header in [
+                ("core/wall.cpp", "<opencv2/core.hpp>"), ("app/main.cpp", "<GLFW/glfw3.h>"),
+                ("simulator/a.cpp", "<glm/glm.hpp>"), ("tracker/a.cpp", "<assimp/scene.h>"),
+                ("core/log.h", "<spdlog/spdlog.h>"), ("app/a.cpp", "<toml++/toml.h>"),
+                ("renderer/a.cpp", "<CLI/CLI.hpp>"), ("simulator/a.cpp", "<epoxy/gl.h>"),
+                ("app/a.cpp", '"core/internal/toml_table.h"')]:
+            with self.subTest(f"{header} in {name}"):
+                self.assertEqual(len(self.reasons(name, header)), 1)
+                (self.root / name).unlink()
+
+    def test_libraries_are_at_home_in_their_folder_and_eigen_everywhere(self):
+        for name, header in [
+                ("tracker/a.cpp", "<opencv2/core.hpp>"), ("renderer/a.cpp", "<GLFW/glfw3.h>"),
+                ("core/internal/a.h", "<toml++/toml.h>"), ("core/log.cpp", "<spdlog/spdlog.h>"),
+                ("app/main.cpp", "<CLI/CLI.hpp>"), ("core/a.h", "<Eigen/Core>")]:
+            with self.subTest(f"{header} in {name}"):
+                self.assertEqual(self.reasons(name, header), [])
+
+
+class Shape(Planted):
+    def test_a_line_of_101_columns_is_found_and_one_of_100_is_not(self):
+        self.write("core/a.cpp", "a" * 100 + "\n" + "b" * 101 + "\n")
+        self.assertEqual(list(shape.breaches(self.root)),
+                         ["core/a.cpp:2: 101 columns; at most 100"])
+
+    def test_columns_are_characters_not_bytes(self):
+        self.write("core/a.cpp", "ø" * 100 + "\n")
+        self.assertEqual(list(shape.breaches(self.root)), [])
+
+    def test_a_file_of_501_lines_is_found(self):
+        self.write("core/a.cpp", "\n" * 501)
+        self.write("core/b.cpp", "\n" * 500)
+        self.assertEqual(list(shape.breaches(self.root)),
+                         ["core/a.cpp: 501 lines; at most 500: split it"])
+
+    def test_functions_are_measured(self):
+        lines = ["namespace a {", "", "int one() { return 1; }", "", "void four(int b,",
+                 "          int c) {", "  b = c;", "}", "", "struct D {", "  int e;", "};", "", "}"]
+        self.assertEqual([size for _, size in shape.function_sizes(lines)], [4])
+
+
+class Format(Planted):
+    def test_a_source_that_is_not_formatted_is_found(self):
+        shutil.copy(ROOT / ".clang-format", self.root)
+        self.write("core/a.cpp", "int  a( ) ;\n")
+        self.assertIn("core/a.cpp:1", format_check.unformatted(self.root, CLANG_FORMAT))
+        self.write("core/a.cpp", "int a();\n")
+        self.assertEqual(format_check.unformatted(self.root, CLANG_FORMAT), "")
+
+
+class Skips(Planted):
+    def status(self, skips):
+        junit = self.write("junit.xml", '<testsuite><testcase name="a.Runs" status="run"/>'
+                           '<testcase name="a.Skips" status="notrun"><skipped/></testcase>'
+                           '<testcase name="a.Off" status="disabled"/></testsuite>')
+        return check_skips.main(junit, self.write("skips.txt", skips))
+
+    def test_a_skip_fails_unless_it_is_listed(self):
+        self.assertEqual(self.status("# nothing\n"), 1)
+        self.assertEqual(self.status("a.Skips no camera here\n"), 1)
+        self.assertEqual(self.status("a.Skips no camera here\na.O* too slow\n"), 0)
+
+    def test_a_listed_skip_needs_a_reason(self):
+        with self.assertRaisesRegex(SystemExit, "skips.txt:1: a.Skips: a skip needs its reason"):
+            self.status("a.Skips\n")
+
+
+if __name__ == "__main__":
+    CLANG_FORMAT = sys.argv.pop()
+    unittest.main()
