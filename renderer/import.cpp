@@ -1,5 +1,6 @@
 #include "renderer/import.h"
 
+#include <assimp/commonMetaData.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -22,6 +23,12 @@ namespace {
 constexpr const char* kBrokenRemedy =
     "open it in the program that made it and export it again, best as .glb";
 
+// What Assimp 5.2 calls the loaders that need something of their own.
+constexpr const char* kGltf2Loader = "glTF2 Importer";
+constexpr const char* kObjLoader = "Wavefront Object Importer";
+constexpr const char* kFbxLoader = "Autodesk FBX Importer";
+constexpr const char* kBlenderLoader = "Blender 3D Importer (http://www.blender3d.org)";
+
 /// Cutting a polygon into triangles takes time with the square of its corners.
 constexpr unsigned kMaxPolygonCorners = 20'000;
 
@@ -36,8 +43,9 @@ std::string one_line(const char* message) {
 }
 
 [[noreturn]] void throw_broken(const std::string& file, const std::string& why) {
-  throw Error(
-      {"cannot be read as a model" + (why.empty() ? "" : " (" + why + ")"), file, kBrokenRemedy});
+  const bool misses_file = why.find("could not open referenced file") != std::string::npos;
+  throw Error({"cannot be read as a model" + (why.empty() ? "" : " (" + why + ")"), file,
+               misses_file ? "put that file beside the model" : kBrokenRemedy});
 }
 
 /// What triangulation would trip over, and how much there is of it.
@@ -62,6 +70,13 @@ void check_faces(const aiScene& source, const std::string& file, const ImportLim
                  file, "reduce the model or split it"});
 }
 
+/// The name of Assimp's loader, "glTF2 Importer".
+std::string loader_of(const aiScene& source) {
+  aiString name;
+  const bool known = source.mMetaData && source.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, name);
+  return known ? name.C_Str() : "";
+}
+
 /// Owned by `importer`.
 const aiScene& read_with_assimp(Assimp::Importer& importer, const std::string& file,
                                 const ImportLimits& limits) {
@@ -69,18 +84,21 @@ const aiScene& read_with_assimp(Assimp::Importer& importer, const std::string& f
   const aiScene* source = importer.ReadFile(file, 0);
   if (!source || !source->mRootNode) throw_broken(file, one_line(importer.GetErrorString()));
   check_faces(*source, file, limits);
-  source = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  unsigned steps = aiProcess_Triangulate;
+  if (loader_of(*source) != kGltf2Loader) steps |= aiProcess_TransformUVCoords;  // glTF's are ours
+  source = importer.ApplyPostProcessing(steps);
   if (!source) throw_broken(file, one_line(importer.GetErrorString()));
   return *source;
 }
 
 /// glTF 2.0 (3.4) and X3D (4.3.6) are in metres; Collada's loader already scales the root by the
 /// file's unit; FBX states centimetres per unit and its loader leaves them.
-std::optional<double> metres_per_unit(const aiScene& source, const std::string& extension) {
-  for (const char* metric : {".gltf", ".glb", ".vrm", ".x3d", ".x3db", ".wrl", ".dae", ".zae"})
-    if (extension == metric) return 1.0;
+std::optional<double> metres_per_unit(const aiScene& source, const std::string& loader) {
+  for (const char* metric :
+       {kGltf2Loader, "glTF Importer", "Extensible 3D(X3D) Importer", "Collada Importer"})
+    if (loader == metric) return 1.0;
   float centimetres = 0;
-  if (extension == ".fbx" && source.mMetaData &&
+  if (loader == kFbxLoader && source.mMetaData &&
       source.mMetaData->Get("UnitScaleFactor", centimetres) && std::isfinite(centimetres) &&
       centimetres > 0)
     return static_cast<double>(centimetres) / 100;
@@ -117,6 +135,11 @@ void warn_of(const MeshLosses& losses, std::vector<std::string>& warnings) {
   warn(losses.morphed_meshes, " meshes have morph targets, which do not move");
 }
 
+MaterialStyle style_of(const std::string& loader) {
+  if (loader == kGltf2Loader) return MaterialStyle::gltf;
+  return loader == kObjLoader ? MaterialStyle::obj : MaterialStyle::legacy;
+}
+
 /// Meshes that no node shows cost nothing.
 std::vector<bool> meshes_in_use(const aiScene& source) {
   std::vector<bool> used(source.mNumMeshes, false);
@@ -126,7 +149,8 @@ std::vector<bool> meshes_in_use(const aiScene& source) {
     nodes.pop_back();
     for (unsigned i = 0; i < node.mNumMeshes; ++i)
       if (node.mMeshes[i] < used.size()) used[node.mMeshes[i]] = true;
-    nodes.insert(nodes.end(), node.mChildren, node.mChildren + node.mNumChildren);
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+      if (node.mChildren[i]) nodes.push_back(node.mChildren[i]);  // Assimp's RAW loader leaves gaps
   }
   return used;
 }
@@ -136,7 +160,8 @@ std::vector<bool> meshes_in_use(const aiScene& source) {
 std::vector<int> import_meshes(const aiScene& source, const std::string& file,
                                const ImportLimits& limits, ImportResult& result) {
   Scene& scene = result.scene;
-  const MaterialStyle style = material_style(source, file);
+  const std::string loader = loader_of(source);
+  const MaterialStyle style = style_of(loader);
   TextureImporter textures(source, std::filesystem::path(file).parent_path(), limits.texture_pixels,
                            result.warnings);
   MaterialImporter materials(source, style, textures, result.warnings);
@@ -148,8 +173,11 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
     const aiMesh& source_mesh = *source.mMeshes[i];
     const ImportedMaterial material =
         materials.import(source_mesh.mMaterialIndex, source_mesh.HasVertexColors(0));
-    std::optional<Mesh> mesh = append_mesh(
-        source_mesh, {material.uv_channel, style == MaterialStyle::gltf}, scene, losses);
+    const MeshOptions options = {.uv_channel = material.uv_channel,
+                                 .texture_from_uv = material.texture_from_uv,
+                                 .colours_linear = style == MaterialStyle::gltf,
+                                 .own_normals = loader == kBlenderLoader};
+    std::optional<Mesh> mesh = append_mesh(source_mesh, options, scene, losses);
     if (!mesh) continue;
     mesh->material = material.index;
     mesh_of_source[i] = static_cast<int>(scene.meshes.size());
@@ -158,6 +186,8 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
   scene.materials = materials.take();
   scene.textures = textures.take();
   warn_of(losses, result.warnings);
+  if (scene.indices.empty() && losses.broken_triangles > 0)
+    throw_broken(file, "all its triangles have vertices that are not finite or not there");
   return mesh_of_source;
 }
 
@@ -179,9 +209,9 @@ ImportResult converted(const aiScene& source, const std::string& file, const Imp
   const std::vector<int> mesh_of_source = import_meshes(source, file, limits, result);
   scene.nodes = import_nodes(source, mesh_of_source, result.warnings);
   scene.animations = import_animations(source, scene.nodes);
-  const std::string extension = lower_extension(file);
-  scene.metres_per_unit = metres_per_unit(source, extension);
-  if (extension == ".fbx")
+  const std::string loader = loader_of(source);
+  scene.metres_per_unit = metres_per_unit(source, loader);
+  if (loader == kFbxLoader)
     if (const std::optional<Eigen::Matrix4f> upright = upright_from_fbx(source))
       scene.nodes.front().parent_from_node = *upright;
   check_drawable(scene, file);

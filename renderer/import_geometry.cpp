@@ -20,19 +20,11 @@ bool usable_position(const aiVector3D& v) {
 /// Adding zero turns -0 into 0, so that equal vertices have equal bytes.
 Eigen::Vector3f vector_of(const aiVector3D& v) { return {v.x + 0.0f, v.y + 0.0f, v.z + 0.0f}; }
 
-/// Empty where the file's normal gives no direction.
-std::optional<Eigen::Vector3f> unit_normal(const aiMesh& mesh, unsigned vertex) {
-  if (!mesh.HasNormals() || !usable_position(mesh.mNormals[vertex])) return std::nullopt;
-  const Eigen::Vector3f normal = vector_of(mesh.mNormals[vertex]).stableNormalized();
-  if (std::abs(normal.norm() - 1) > 1e-3f) return std::nullopt;
-  return Eigen::Vector3f(normal + Eigen::Vector3f::Zero());
-}
-
 /// Assimp's (0, 0) is the lower left of the texture, ours the upper left.
-Eigen::Vector2f uv_of(const aiMesh& mesh, unsigned channel, unsigned vertex) {
-  const aiVector3D& uv = mesh.mTextureCoords[channel][vertex];
-  if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return Eigen::Vector2f::Zero();
-  return {uv.x + 0.0f, 1.0f - uv.y};
+Eigen::Vector2f uv_of(const aiVector3D& uv, const UvTransform& texture_from_uv) {
+  const Eigen::Vector2f result = texture_from_uv * Eigen::Vector3f(uv.x, 1 - uv.y, 1);
+  return result.allFinite() ? Eigen::Vector2f(result + Eigen::Vector2f::Zero())
+                            : Eigen::Vector2f::Zero();
 }
 
 std::uint8_t byte_of(float value) {
@@ -68,15 +60,27 @@ class VertexReader {
  public:
   VertexReader(const aiMesh& mesh, const MeshOptions& options)
       : mesh_(mesh),
+        texture_from_uv_(options.texture_from_uv),
+        own_normals_(options.own_normals),
         colours_linear_(options.colours_linear),
         colour_use_(mesh),
         uv_channel_(mesh.HasTextureCoords(options.uv_channel) ? options.uv_channel : 0) {}
+
+  /// Empty where the file's normal gives no direction.
+  std::optional<Eigen::Vector3f> unit_normal(unsigned index) const {
+    if (own_normals_ || !mesh_.HasNormals() || !usable_position(mesh_.mNormals[index]))
+      return std::nullopt;
+    const Eigen::Vector3f normal = vector_of(mesh_.mNormals[index]).stableNormalized();
+    if (std::abs(normal.norm() - 1) > 1e-3f) return std::nullopt;
+    return Eigen::Vector3f(normal + Eigen::Vector3f::Zero());
+  }
 
   Vertex read(unsigned index, const Eigen::Vector3f& normal) const {
     Vertex vertex;
     vertex.position_in_node = vector_of(mesh_.mVertices[index]);
     vertex.normal_in_node = normal;
-    if (mesh_.HasTextureCoords(uv_channel_)) vertex.uv = uv_of(mesh_, uv_channel_, index);
+    if (mesh_.HasTextureCoords(uv_channel_))
+      vertex.uv = uv_of(mesh_.mTextureCoords[uv_channel_][index], texture_from_uv_);
     if (colour_use_.rgb) vertex.colour = colour_of(mesh_.mColors[0][index], colours_linear_);
     if (!colour_use_.alpha) vertex.colour[3] = 255;
     return vertex;
@@ -84,6 +88,8 @@ class VertexReader {
 
  private:
   const aiMesh& mesh_;
+  UvTransform texture_from_uv_;
+  bool own_normals_;
   bool colours_linear_;
   ColourUse colour_use_;
   unsigned uv_channel_;
@@ -113,8 +119,9 @@ std::vector<unsigned> usable_corners(const aiMesh& mesh, MeshLosses& losses) {
   return corners;
 }
 
-bool all_have_normals(const aiMesh& mesh, const std::vector<unsigned>& corners) {
-  return std::ranges::all_of(corners, [&](unsigned i) { return unit_normal(mesh, i).has_value(); });
+bool all_have_normals(const VertexReader& reader, const std::vector<unsigned>& corners) {
+  return std::ranges::all_of(corners,
+                             [&](unsigned i) { return reader.unit_normal(i).has_value(); });
 }
 
 /// Every vertex as the file has it.
@@ -126,7 +133,7 @@ void append_as_given(const aiMesh& mesh, const VertexReader& reader,
                              std::min<std::size_t>(corners.size(), mesh.mNumVertices));
   for (const unsigned corner : corners) {
     if (scene_index[corner] == unset)
-      scene_index[corner] = table.index_of(reader.read(corner, *unit_normal(mesh, corner)));
+      scene_index[corner] = table.index_of(reader.read(corner, *reader.unit_normal(corner)));
     scene.indices.push_back(scene_index[corner]);
   }
 }
@@ -140,7 +147,7 @@ void append_with_normals(const aiMesh& mesh, const VertexReader& reader,
   const std::vector<Eigen::Vector3f> computed = corner_normals(positions);
   Deduplicator<Vertex> table(scene.vertices, corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector3f normal = unit_normal(mesh, corners[i]).value_or(computed[i]);
+    const Eigen::Vector3f normal = reader.unit_normal(corners[i]).value_or(computed[i]);
     scene.indices.push_back(table.index_of(reader.read(corners[i], normal)));
   }
 }
@@ -169,7 +176,7 @@ std::optional<Mesh> append_mesh(const aiMesh& source, const MeshOptions& options
   mesh.first_index = static_cast<std::uint32_t>(scene.indices.size());
   mesh.index_count = static_cast<std::uint32_t>(corners.size());
   const VertexReader reader(source, options);
-  if (all_have_normals(source, corners))
+  if (all_have_normals(reader, corners))
     append_as_given(source, reader, corners, scene);
   else
     append_with_normals(source, reader, corners, scene);

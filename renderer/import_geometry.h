@@ -12,9 +12,14 @@
 
 namespace vindu {
 
+/// x_in_texture = texture_from_uv * (u, v, 1); (0, 0) is the upper left on both sides.
+using UvTransform = Eigen::Matrix<float, 2, 3>;
+
 struct MeshOptions {
-  unsigned uv_channel = 0;      ///< which of the mesh's texture coordinates the material uses
+  unsigned uv_channel = 0;  ///< which of the mesh's texture coordinates the material uses
+  UvTransform texture_from_uv = UvTransform::Identity();
   bool colours_linear = false;  ///< otherwise its vertex colours are sRGB
+  bool own_normals = false;     ///< the file's are not to be trusted: compute all
 };
 
 /// What was left out, over all meshes.

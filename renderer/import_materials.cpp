@@ -1,15 +1,10 @@
 #include "renderer/import_materials.h"
 
 #include <assimp/GltfMaterial.h>
-#include <assimp/commonMetaData.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string_view>
-
-#include "renderer/import_file.h"
-#include "renderer/import_geometry.h"
 
 namespace vindu {
 namespace {
@@ -53,13 +48,33 @@ Eigen::Vector3f linear(const Eigen::Vector3f& srgb) {
   return srgb.unaryExpr([](float value) { return linear_from_srgb(unit(value)); });
 }
 
+/// KHR_texture_transform: offset + rotation * scale * uv, with the rotation matrix [c s; -s c].
+/// Assimp 5.2's loader rewrites it for a rotation about the texture's centre, which its own
+/// application of it then gets wrong; this undoes the rewriting (glTF2Importer.cpp,
+/// SetMaterialTextureProperty).
+UvTransform khr_texture_transform(const aiMaterial& material, aiTextureType type) {
+  aiUVTransform stored;
+  if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), stored) != aiReturn_SUCCESS)
+    return UvTransform::Identity();
+  const Eigen::Vector2f scale(stored.mScaling.x, stored.mScaling.y);
+  const float c = std::cos(-stored.mRotation);
+  const float s = std::sin(-stored.mRotation);
+  UvTransform texture_from_uv;
+  texture_from_uv << c * scale.x(), s * scale.y(),
+      stored.mTranslation.x - 0.5f * scale.x() * (1 - c + s),  //
+      -s * scale.x(), c * scale.y(),
+      1 - scale.y() + 0.5f * scale.y() * (s + c - 1) - stored.mTranslation.y;
+  return texture_from_uv.allFinite() ? texture_from_uv : UvTransform::Identity();
+}
+
 /// One material on its way into the scene.
 struct Conversion {
   const aiMaterial& source;
+  MaterialStyle style;
   TextureImporter& textures;
   std::vector<std::string>& warnings;
   Material material;
-  unsigned uv_channel = 0;
+  ImportedMaterial result;
 
   void warn(const std::string& what) {
     warnings.push_back("material " + material.name + ": " + what);
@@ -71,7 +86,10 @@ struct Conversion {
       const std::string name = texture_name(source, type);
       material.base_colour_texture = textures.index_of(name);
       if (material.base_colour_texture < 0) continue;
-      uv_channel = static_cast<unsigned>(std::max(0, whole(source, AI_MATKEY_UVWSRC(type, 0))));
+      result.uv_channel =
+          static_cast<unsigned>(std::max(0, whole(source, AI_MATKEY_UVWSRC(type, 0))));
+      if (style == MaterialStyle::gltf)
+        result.texture_from_uv = khr_texture_transform(source, type);
       return true;
     }
     return false;
@@ -107,6 +125,7 @@ void convert_gltf(Conversion& conversion) {
   const aiMaterial& source = conversion.source;
   Material& material = conversion.material;
   material.double_sided = whole(source, AI_MATKEY_TWOSIDED) != 0;
+  material.unlit = whole(source, AI_MATKEY_SHADING_MODEL) == aiShadingMode_Unlit;
   convert_gltf_alpha(conversion);
   const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
   if (emissive) conversion.use_emissive(emissive->head<3>());
@@ -127,11 +146,12 @@ void convert_gltf(Conversion& conversion) {
 
 /// The colour that goes with a texture: only OBJ's file format says that both are multiplied, and
 /// writers that leave it black there mean the texture alone.
-Eigen::Vector3f legacy_tint(const Conversion& conversion, bool has_texture, MaterialStyle style,
+Eigen::Vector3f legacy_tint(const Conversion& conversion, bool has_texture,
                             bool has_vertex_colours) {
   const bool made_up = conversion.material.name == AI_DEFAULT_MATERIAL_NAME;
   const auto diffuse = colour(conversion.source, AI_MATKEY_COLOR_DIFFUSE);
-  if (has_texture && (style != MaterialStyle::obj || !diffuse || diffuse->head<3>().isZero(1e-3f)))
+  if (has_texture &&
+      (conversion.style != MaterialStyle::obj || !diffuse || diffuse->head<3>().isZero(1e-3f)))
     return Eigen::Vector3f::Ones();
   if (made_up && has_vertex_colours) return Eigen::Vector3f::Ones();
   if (made_up || !diffuse) return Eigen::Vector3f::Constant(kPlainGrey);
@@ -164,14 +184,14 @@ float legacy_roughness(const aiMaterial& source) {
   return exponent && *exponent > 0 ? roughness_from_shininess(*exponent) : Material{}.roughness;
 }
 
-void convert_legacy(Conversion& conversion, MaterialStyle style, bool has_vertex_colours) {
+void convert_legacy(Conversion& conversion, bool has_vertex_colours) {
   const aiMaterial& source = conversion.source;
   Material& material = conversion.material;
   // Only glTF defines which side of a face is its front; in older files the winding is often mixed.
   material.double_sided = true;
   const bool has_texture =
       conversion.use_base_texture({aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR});
-  material.base_colour.head<3>() = legacy_tint(conversion, has_texture, style, has_vertex_colours);
+  material.base_colour.head<3>() = legacy_tint(conversion, has_texture, has_vertex_colours);
   convert_legacy_alpha(conversion);
   const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
   if (emissive) conversion.use_emissive(linear(emissive->head<3>()));
@@ -183,14 +203,6 @@ void convert_legacy(Conversion& conversion, MaterialStyle style, bool has_vertex
 }
 
 }  // namespace
-
-MaterialStyle material_style(const aiScene& source, const std::string& file) {
-  aiString format;
-  if (source.mMetaData && source.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, format) &&
-      std::string_view(format.C_Str()).starts_with("glTF2"))
-    return MaterialStyle::gltf;
-  return lower_extension(file) == ".obj" ? MaterialStyle::obj : MaterialStyle::legacy;
-}
 
 float roughness_from_shininess(float exponent) {
   const float alpha = std::sqrt(2 / (std::max(exponent, 0.0f) + 2));
@@ -205,14 +217,15 @@ ImportedMaterial MaterialImporter::import(unsigned source_index, bool has_vertex
     materials_.emplace_back().double_sided = true;
     return entry->second;
   }
-  Conversion conversion{*source_.mMaterials[source_index], textures_, warnings_, {}, 0};
+  Conversion conversion{*source_.mMaterials[source_index], style_, textures_, warnings_, {}, {}};
   conversion.material.name = text(conversion.source, AI_MATKEY_NAME);
   if (style_ == MaterialStyle::gltf)
     convert_gltf(conversion);
   else
-    convert_legacy(conversion, style_, has_vertex_colours);
+    convert_legacy(conversion, has_vertex_colours);
   materials_.push_back(std::move(conversion.material));
-  entry->second.uv_channel = conversion.uv_channel;
+  conversion.result.index = entry->second.index;
+  entry->second = conversion.result;
   return entry->second;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/import_geometry.h"
 #include "renderer/import_textures.h"
 #include "renderer/scene.h"
 
@@ -22,11 +23,10 @@ enum class MaterialStyle {
   legacy,  ///< diffuse and specular, sRGB; a texture takes the diffuse colour's place
 };
 
-MaterialStyle material_style(const aiScene& source, const std::string& file);
-
 struct ImportedMaterial {
   int index = 0;            ///< into take()'s result
   unsigned uv_channel = 0;  ///< the texture coordinates that its base colour texture uses
+  UvTransform texture_from_uv = UvTransform::Identity();  ///< to be applied to them
 };
 
 /// Roughness whose GGX lobe is as wide as a Blinn-Phong lobe of this exponent: alpha^2 = 2 / (n +

@@ -113,7 +113,7 @@ std::vector<Node> import_nodes(const aiScene& source, const std::vector<int>& me
       warnings.push_back("node " + nodes.back().name + ": its transform is not finite; left out");
     }
     for (unsigned i = task.node->mNumChildren; i-- > 0;)
-      tasks.push_back({task.node->mChildren[i], index});
+      if (task.node->mChildren[i]) tasks.push_back({task.node->mChildren[i], index});
   }
   return nodes;
 }

@@ -65,7 +65,9 @@ std::string cleaned(std::string name) {
   const std::size_t first = name.find_first_not_of(around);
   if (first == std::string::npos) return {};
   name = name.substr(first, name.find_last_not_of(around) + 1 - first);
+  name.erase(std::min(name.find('"'), name.size()));  // X3D lists alternatives: "a.png" "a.gif"
   if (lower_case(name).starts_with("file://")) name.erase(0, std::string_view("file://").size());
+  if (name.starts_with("//")) name.erase(0, 2);  // Blender: relative to the file
   return name;
 }
 
