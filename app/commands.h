@@ -1,0 +1,18 @@
+// The sub-commands of vindu: each adds itself to the command line and, when chosen, leaves what is
+// to be run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace vindu::app {
+
+/// Runs after the command line was read; returns the exit code. Errors are thrown.
+using Action = std::function<int()>;
+
+void add_view(CLI::App& parent, Action& chosen);
+void add_render(CLI::App& parent, Action& chosen);
+void add_simulate(CLI::App& parent, Action& chosen);
+void add_check(CLI::App& parent, Action& chosen);
+
+}  // namespace vindu::app

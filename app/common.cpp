@@ -1,0 +1,82 @@
+#include "app/common.h"
+
+#include <array>
+#include <charconv>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "renderer/import.h"
+#include "renderer/resources.h"
+
+namespace vindu::app {
+namespace {
+
+/// Throws CLI::ValidationError (called wrong) unless the text is three finite numbers with commas.
+Vec3 parse_vec3(const std::string& name, const std::string& text) {
+  Vec3 value;
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [next, error] = std::from_chars(at, end, value[axis]);
+    const bool separated = axis == 2 ? next == end : next != end && *next == ',';
+    if (error != std::errc{} || !separated || !(std::abs(value[axis]) < 1e6))
+      throw CLI::ValidationError(
+          name, "\"" + text + "\" is not x,y,z in metres; for example " + name + " -1,0.1,2");
+    at = next + 1;
+  }
+  return value;
+}
+
+LoadedScene place(Scene scene, Placement placement, const Wall& wall) {
+  PlacedScene placed = place_scene(scene, placement, wall);
+  if (!placed.remark.empty()) log_info(scene.name, placed.remark);
+  return {std::move(scene), placed.navigation};
+}
+
+}  // namespace
+
+CLI::Option* add_vec3(CLI::App& app, const std::string& name, std::optional<Vec3>& value,
+                      const std::string& help) {
+  return app
+      .add_option_function<std::string>(
+          name, [&value, name](const std::string& text) { value = parse_vec3(name, text); }, help)
+      ->type_name("X,Y,Z");
+}
+
+CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value) {
+  return app
+      .add_option_function<std::string>(
+          "--place", [&value](const std::string& text) { value = placement_from(text); },
+          "fit: scaled to the wall; life-size: metres, where the file states its unit;\n"
+          "as-is: the model's coordinates are wall coordinates in metres")
+      ->check(CLI::IsMember({"fit", "life-size", "as-is"}))
+      ->type_name("fit|life-size|as-is");
+}
+
+Site load_site(const std::string& wall_file) {
+  return read_site(wall_file.empty() ? find_asset("walls/tromso.toml") : wall_file);
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw Error({"cannot be made: " + error.message(), folder, "choose another --out"});
+}
+
+LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
+                       const Site& site) {
+  const bool show = model.empty() && site.scene.model.empty();
+  const std::string file = show            ? find_asset("show/show.glb")
+                           : model.empty() ? site.scene.model
+                                           : model;
+  ImportResult imported = import_scene(file);
+  for (const std::string& warning : imported.warnings) log_warning(imported.scene.name, warning);
+  log_debug(imported.scene.name, std::to_string(imported.scene.triangle_count()) + " triangles");
+  const Placement wanted = model.empty() ? site.scene.place : Placement::fit;
+  return place(std::move(imported.scene), placement.value_or(show ? Placement::as_is : wanted),
+               site.wall);
+}
+
+}  // namespace vindu::app

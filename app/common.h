@@ -1,0 +1,38 @@
+// What several sub-commands share: options of the same name, loading a model, the default site and
+// show.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "core/site.h"
+#include "renderer/placement.h"
+#include "renderer/scene.h"
+
+namespace vindu::app {
+
+/// An option "x,y,z" in metres.
+CLI::Option* add_vec3(CLI::App& app, const std::string& name, std::optional<Vec3>& value,
+                      const std::string& help);
+
+/// --place fit | life-size | as-is
+CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value);
+
+/// The wall file, or the Tromsø wall that comes with Vindu when the name is empty.
+Site load_site(const std::string& wall_file);
+
+/// Makes the folder, with its parents. Throws Error when that fails.
+void make_folder(const std::string& folder);
+
+struct LoadedScene {
+  Scene scene;
+  Navigation navigation;
+};
+
+/// Imports a model and places it before the wall; warnings and the placement are logged. An empty
+/// name is the wall file's scene or, where it names none, the show.
+LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
+                       const Site& site);
+
+}  // namespace vindu::app

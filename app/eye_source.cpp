@@ -1,0 +1,118 @@
+#include "app/eye_source.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace vindu::app {
+namespace {
+
+std::unique_ptr<HidDevice> open_camera(const CameraConfig& camera, std::size_t index,
+                                       const EmulatedRoom& room) {
+  if (camera.source == CameraSource::emulated) return room.connect(index);
+  throw Error({"source \"" + name_of(camera.source) + "\" cannot be opened by this version",
+               "camera " + camera.name, "write source = \"emulated\" to try the rest without it"});
+}
+
+class PathEye final : public EyeSource {
+ public:
+  explicit PathEye(CameraPath path) : path_(std::move(path)) {}
+  EyeNow at(Time now) override {
+    if (!start_) start_ = now;
+    return {.eye_in_wall = path_.eye_at(seconds(now - *start_)),
+            .mode = Mode::loop,
+            .pose = {},
+            .solve = {}};
+  }
+
+ private:
+  CameraPath path_;
+  std::optional<Time> start_;
+};
+
+class PersonEye final : public EyeSource {
+ public:
+  explicit PersonEye(const Person& person) : person_(person) {}
+  EyeNow at(Time now) override {
+    return {.eye_in_wall = person_.eye_in_wall(now), .mode = Mode::track, .pose = {}, .solve = {}};
+  }
+
+ private:
+  const Person& person_;
+};
+
+class FixedEye final : public EyeSource {
+ public:
+  explicit FixedEye(const Vec3& eye_in_wall) : eye_in_wall_(eye_in_wall) {}
+  EyeNow at(Time) override {
+    return {.eye_in_wall = eye_in_wall_, .mode = Mode::track, .pose = {}, .solve = {}};
+  }
+
+ private:
+  Vec3 eye_in_wall_;
+};
+
+class PointerEye final : public EyeSource {
+ public:
+  PointerEye(Window& window, const Wall& wall, const Vec3& start_in_wall)
+      : window_(window),
+        half_size_m_(wall.grid.width_m / 2, wall.grid.height_m / 2),
+        start_in_wall_(start_in_wall) {}
+  EyeNow at(Time) override {
+    distance_factor_ =
+        std::clamp(distance_factor_ * std::pow(0.9, window_.take_wheel()), 0.1, 10.0);
+    const Vec2 across = window_.pointer().cwiseProduct(half_size_m_);
+    const Vec3 eye(across.x(), start_in_wall_.y() + across.y(),
+                   start_in_wall_.z() * distance_factor_);
+    return {.eye_in_wall = eye, .mode = Mode::touch, .pose = {}, .solve = {}};
+  }
+
+ private:
+  Window& window_;
+  Vec2 half_size_m_;
+  Vec3 start_in_wall_;
+  double distance_factor_ = 1;
+};
+
+}  // namespace
+
+TrackedEye::TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
+                       const TrackerOptions& options)
+    : clock_(clock),
+      tracker_(site.cameras, site.head, site.wall.room_from_wall, options),
+      ease_(site.viewer.default_eye_in_wall) {
+  for (std::size_t index = 0; index < site.cameras.size(); ++index) {
+    const CameraConfig& camera = site.cameras[index];
+    readers_.emplace_back(open_camera(camera, index, room), static_cast<int>(index), camera.name);
+  }
+}
+
+EyeNow TrackedEye::at(Time now) {
+  const Time begin = clock_.now();
+  for (WiimoteReader& reader : readers_)
+    while (const auto observation = reader.next(now)) tracker_.absorb(*observation);
+  const std::optional<PoseSample> pose = tracker_.track(now);
+  const bool known = pose && pose->level < TrackingLevel::held;
+  const auto eye = known ? std::optional(tracker_.eye_in_wall(*pose)) : std::nullopt;
+  return {.eye_in_wall = ease_.update(eye, now),
+          .mode = Mode::track,
+          .pose = pose,
+          .solve = clock_.now() - begin};
+}
+
+std::unique_ptr<EyeSource> follow_path(CameraPath path) {
+  return std::make_unique<PathEye>(std::move(path));
+}
+std::unique_ptr<EyeSource> follow_person(const Person& person) {
+  return std::make_unique<PersonEye>(person);
+}
+std::unique_ptr<EyeSource> stay(const Vec3& eye_in_wall) {
+  return std::make_unique<FixedEye>(eye_in_wall);
+}
+std::unique_ptr<EyeSource> follow_pointer(Window& window, const Wall& wall,
+                                          const Vec3& start_in_wall) {
+  return std::make_unique<PointerEye>(window, wall, start_in_wall);
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,68 @@
+// Where the eye comes from, one of a closed set: tracked by cameras, a camera path, a fixed point,
+// or a window's pointer. Asked once a frame, for all tiles. All are bound to the render thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/camera_path.h"
+#include "core/frame_state.h"
+#include "core/pose.h"
+#include "core/site.h"
+#include "renderer/surface.h"
+#include "simulator/emulated_room.h"
+#include "tracker/eye_ease.h"
+#include "tracker/tracker.h"
+#include "tracker/wiimote/reader.h"
+
+namespace vindu::app {
+
+/// The eye for one frame.
+struct EyeNow {
+  Vec3 eye_in_wall = Vec3::Zero();
+  Mode mode = Mode::track;
+  std::optional<PoseSample> pose;  ///< that the eye rests on; empty where nothing is tracked
+  Duration solve{};                ///< reading the cameras and finding the pose
+};
+
+class EyeSource {
+ public:
+  virtual ~EyeSource() = default;
+  virtual EyeNow at(Time now) = 0;
+};
+
+/// The cameras that the site names, read by the driver; now and for machines without cameras:
+/// emulated ones.
+class TrackedEye final : public EyeSource {
+ public:
+  /// The room and the clock must outlive this. Throws Error for cameras that cannot be opened.
+  TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
+             const TrackerOptions& options);
+
+  EyeNow at(Time now) override;
+  const Tracker& tracker() const { return tracker_; }
+  const std::vector<WiimoteReader>& readers() const { return readers_; }
+
+ private:
+  Clock& clock_;
+  Tracker tracker_;
+  EyeEase ease_;
+  std::vector<WiimoteReader> readers_;
+};
+
+/// The path begins with the first frame.
+std::unique_ptr<EyeSource> follow_path(CameraPath path);
+
+/// The eye of the simulated person as it truly is, without cameras.
+std::unique_ptr<EyeSource> follow_person(const Person& person);
+
+std::unique_ptr<EyeSource> stay(const Vec3& eye_in_wall);
+
+/// The pointer moves the eye over the wall's width and height; the wheel moves it nearer and
+/// farther.
+std::unique_ptr<EyeSource> follow_pointer(Window& window, const Wall& wall,
+                                          const Vec3& start_in_wall);
+
+}  // namespace vindu::app

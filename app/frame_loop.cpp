@@ -1,0 +1,58 @@
+#include "app/frame_loop.h"
+
+#include <cmath>
+
+namespace vindu::app {
+namespace {
+
+/// Exponential mean of what it takes from tick to light, over some ten frames.
+class PhotonDelay {
+ public:
+  explicit PhotonDelay(Duration first) : mean_s_(seconds(first)) {}
+  Duration expected() const { return from_seconds(mean_s_); }
+  void add(Duration measured) { mean_s_ += 0.1 * (seconds(measured) - mean_s_); }
+
+ private:
+  double mean_s_;
+};
+
+}  // namespace
+
+LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
+                      const DrawFrame& draw, const PresentFrame& present) {
+  LoopResult result;
+  const Time start = clock.now();
+  const Duration period = from_seconds(1 / options.rate_hz);
+  PhotonDelay delay(period);
+  for (std::int64_t tick = 1;;) {
+    clock.sleep_until(start + tick * period);
+    const Time now = clock.now();
+    if (options.length && now - start > *options.length) break;
+    const EyeNow eye = eyes.at(now);
+    FrameRecord record{.state = {.number = result.frames.size() + 1,
+                                 .photon_time = now + delay.expected() + options.display_latency,
+                                 .eye_in_wall = eye.eye_in_wall,
+                                 .navigation = options.navigation,
+                                 .animation_time_s = seconds(now - start),
+                                 .mode = eye.mode},
+                       .pose = eye.pose,
+                       .capture_age = eye.pose ? now - eye.pose->capture_time : Duration{},
+                       .solve = eye.solve};
+    const Time drawing = clock.now();
+    record.black_tiles = draw(record.state);
+    const Time drawn = clock.now();
+    record.draw = drawn - drawing;
+    const bool go_on = present(record);
+    record.present = clock.now() - drawn;
+    delay.add(clock.now() - now);
+    result.frames.push_back(record);
+    if (!go_on) break;
+    const std::int64_t next = (clock.now() - start) / period + 1;
+    result.ticks_missed += static_cast<std::uint64_t>(std::max<std::int64_t>(next - tick - 1, 0));
+    tick = std::max(next, tick + 1);
+  }
+  result.length = clock.now() - start;
+  return result;
+}
+
+}  // namespace vindu::app

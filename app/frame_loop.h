@@ -1,0 +1,50 @@
+// The master of a wall in one process: ticks at the wall's rate, asks for the eye once, draws all
+// tiles, presents, and keeps account of every frame: motion to photon as a sum of named parts.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "app/eye_source.h"
+#include "core/clock.h"
+#include "core/frame_state.h"
+
+namespace vindu::app {
+
+struct FrameRecord {
+  FrameState state;
+  std::optional<PoseSample> pose;
+  Duration
+      capture_age{};  ///< from the arrival of the newest report that the pose rests on to the tick
+  Duration solve{};
+  Duration draw{};
+  Duration present{};
+  int black_tiles = 0;
+};
+
+struct LoopOptions {
+  double rate_hz = 60;
+  Duration display_latency{};
+  std::optional<Duration> length;  ///< empty: until the surface is closed
+  Navigation navigation;
+};
+
+struct LoopResult {
+  std::vector<FrameRecord> frames;
+  std::uint64_t ticks_missed = 0;  ///< ticks that passed while a frame was still being drawn
+  Duration length{};
+};
+
+/// Draws the frame into the wall's picture; returns the number of black tiles.
+using DrawFrame = std::function<int(const FrameState&)>;
+
+/// Presents it; false ends the loop.
+using PresentFrame = std::function<bool(const FrameRecord&)>;
+
+/// A tick that cannot be kept is skipped, never made up for. The frame's photon time is predicted
+/// from the draw time of the frames before.
+LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
+                      const DrawFrame& draw, const PresentFrame& present);
+
+}  // namespace vindu::app

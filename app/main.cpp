@@ -1,0 +1,67 @@
+// vindu: one program for master, tiles, tracker, simulator and tools. Reads the command line and
+// runs one sub-command; the only place where errors become exit codes: 0 done, 1 failed, 2 called
+// wrong.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "core/error.h"
+#include "core/log.h"
+
+namespace {
+
+/// Without a sub-command vindu shows its main job on this machine alone.
+constexpr const char* kDefaultCommand = "simulate";
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Vindu turns a tiled display wall into a window: it shows a 3D model in the perspective of "
+      "the\n"
+      "person before it, whose head it tracks with infrared cameras.",
+      "vindu");
+  app.footer(
+      "\nWithout a sub-command: vindu simulate, the whole wall on this machine alone.\n"
+      "vindu COMMAND --help explains a command and gives examples.");
+  app.set_version_flag("--version", VINDU_VERSION);
+  bool quiet = false, verbose = false;
+  app.add_flag("--quiet", quiet, "Say only what went wrong");
+  app.add_flag("--verbose", verbose, "Say more");
+  app.require_subcommand(0, 1);
+  app.fallthrough();
+  vindu::app::Action chosen;
+  vindu::app::add_simulate(app, chosen);
+  vindu::app::add_view(app, chosen);
+  vindu::app::add_render(app, chosen);
+  vindu::app::add_check(app, chosen);
+  try {
+    app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+      std::vector<std::string> words(argv + 1, argv + argc);
+      words.emplace_back(kDefaultCommand);
+      std::ranges::reverse(words);  // as CLI11 wants a vector
+      app.parse(words);
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  vindu::set_log_level(quiet     ? vindu::LogLevel::quiet
+                       : verbose ? vindu::LogLevel::verbose
+                                 : vindu::LogLevel::normal);
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const vindu::Error& error) {
+    std::fprintf(stderr, "vindu: %s\n", error.what());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "vindu: unexpected: %s\n", error.what());
+  }
+  return 1;
+}

@@ -1,0 +1,111 @@
+// vindu render: pictures of a model on a wall from one eye, off-screen.
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "renderer/eye_picture.h"
+#include "renderer/surface.h"
+#include "renderer/wall_renderer.h"
+
+namespace vindu::app {
+namespace {
+
+constexpr SizePx kEyePicture{1600, 900};
+
+struct RenderOptions {
+  std::string model;
+  std::string wall_file;
+  std::string tile;
+  std::string out = "out";
+  std::optional<Vec3> eye;
+  std::optional<Placement> place;
+  std::optional<int> device;
+  double scale = 1;
+  double time_s = 0;
+  bool all = false;
+  bool unlit = false;
+};
+
+void save(const Image& image, const std::string& file) {
+  write_png(image, file);
+  std::printf("%s\n", file.c_str());
+}
+
+void save_tiles(const WallRenderer& wall, const RenderOptions& options) {
+  for (std::size_t index = 0; index < wall.wall().tiles.size(); ++index) {
+    const std::string& name = wall.wall().tiles[index].name;
+    if (options.tile.empty() || options.tile == name)
+      save(wall.read_tile(index), options.out + "/" + name + ".png");
+  }
+}
+
+const Tile* chosen_tile(const Wall& wall, const std::string& name) {
+  if (name.empty()) return nullptr;
+  const Tile* tile = wall.find(name);
+  if (!tile)
+    throw Error({"there is no tile \"" + name + "\"", "--tile",
+                 "this wall has " + wall.tiles.front().name + " to " + wall.tiles.back().name});
+  return tile;
+}
+
+int render(const RenderOptions& options) {
+  const Site site = load_site(options.wall_file);
+  const Tile* only = chosen_tile(site.wall, options.tile);
+  const LoadedScene loaded = load_scene(options.model, options.place, site);
+  make_folder(options.out);
+  const auto surface = make_headless_surface({.device = options.device});
+  log_debug("render", gl_description());
+  WallRenderer wall(site.wall, options.scale, options.unlit ? Style::unlit : Style::lit);
+  wall.show(loaded.scene);
+  FrameState state{.eye_in_wall = options.eye.value_or(site.viewer.default_eye_in_wall),
+                   .navigation = loaded.navigation,
+                   .animation_time_s = options.time_s};
+  const WallFrame frame = wall.draw(state, only);
+  for (const std::string& name : frame.black_tiles)
+    log_warning(name, "is black: the eye is at or behind its plane");
+  save_tiles(wall, options);
+  if (only) return 0;
+  save(wall.picture().read(), options.out + "/wall.png");
+  save(picture_from_eye(wall, state.eye_in_wall, kEyePicture), options.out + "/eye.png");
+  return 0;
+}
+
+}  // namespace
+
+void add_render(CLI::App& parent, Action& chosen) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* app = parent.add_subcommand(
+      "render", "Pictures of a model on a wall, seen from one eye, off-screen");
+  app->add_option("MODEL", options->model,
+                  "Any model that Assimp reads (default: the wall file's, or the show)");
+  app->add_option("--wall", options->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
+      ->type_name("FILE");
+  add_vec3(*app, "--eye", options->eye,
+           "The eye in wall: metres from the wall's centre, +x right, +y up, +z towards\n"
+           "the viewer (default: the wall file's default_eye_m)");
+  auto* tile = app->add_option("--tile", options->tile, "Only this tile")->type_name("tile-X-Y");
+  app->add_flag("--all", options->all,
+                "All tiles, the joined wall and the view from the eye (default)")
+      ->excludes(tile);
+  app->add_option("--scale", options->scale, "Pixels per pixel of the wall")
+      ->check(CLI::Range(0.005, 4.0));
+  add_place(*app, options->place);
+  app->add_flag("--unlit", options->unlit,
+                "Base colours as they are: no light, tone, sRGB or multisampling");
+  app->add_option("--time", options->time_s, "Animation time in seconds");
+  app->add_option("--device", options->device, "EGL device (GPU) by its index");
+  app->add_option("--out", options->out, "Folder for the pictures (default: out)")
+      ->type_name("DIR");
+  app->footer(
+      "\nWrites tile-X-Y.png for each tile, wall.png (the whole wall as one picture) and eye.png "
+      "(what the viewer sees).\n"
+      "\nExamples:\n"
+      "  vindu render model.glb --wall wall.toml --eye -1,0.1,2 --scale 0.25 --out pictures\n"
+      "  vindu render scan.ply --tile tile-3-1 --place life-size\n");
+  app->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
+}
+
+}  // namespace vindu::app

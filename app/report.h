@@ -1,0 +1,36 @@
+// What a run says at its end: a table of frames, latency parts and eye error.
+#pragma once
+
+#include <string>
+
+#include "app/frame_loop.h"
+#include "simulator/person.h"
+#include "tracker/tracker.h"
+
+namespace vindu::app {
+
+struct Spread {
+  double mean = 0;
+  double p95 = 0;
+  double largest = 0;
+};
+
+/// All zero for no values.
+Spread spread_of(std::vector<double> values);
+
+struct RunReport {
+  LoopResult loop;
+  const Person* truth = nullptr;     ///< where there is one; the eye error is measured against it
+  const Tracker* tracker = nullptr;  ///< where one ran
+  double scale = 1;
+  SizePx wall_px;
+  std::string gl;
+};
+
+/// For people.
+std::string table_of(const RunReport& report);
+
+/// The same figures as one JSON object.
+std::string json_of(const RunReport& report);
+
+}  // namespace vindu::app

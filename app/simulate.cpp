@@ -1,0 +1,311 @@
+// vindu simulate: the whole chain on this machine alone. Emulated Wiimotes watch a walking person,
+// the tracker finds the head, all tiles draw head-coupled; in a window where there is a display,
+// else as pictures; then a table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/contact_sheet.h"
+#include "app/eye_source.h"
+#include "app/frame_loop.h"
+#include "app/report.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "renderer/eye_picture.h"
+#include "renderer/resources.h"
+#include "renderer/surface.h"
+#include "renderer/wall_renderer.h"
+#include "simulator/room_view.h"
+
+namespace vindu::app {
+namespace {
+
+constexpr double kSheetScale = 0.25;  // of the wall in the pictures that are kept
+constexpr SizePx kRoomPicture{1280, 800};
+constexpr int kColumn_px = 620;
+
+struct SimulateOptions {
+  std::string model;
+  std::string wall_file;
+  std::string mode = "track";
+  std::string path_file;
+  std::string method = "thesis";
+  std::string clock = "real";
+  std::string out = "out";
+  std::optional<Placement> place;
+  std::optional<double> seconds;
+  std::optional<double> scale;
+  std::optional<int> device;
+  std::uint64_t seed = 1;
+  double noise_px = 0.3;
+  bool headless = false;
+  bool json = false;
+};
+
+/// Everything of one run, assembled here and nowhere else. Members are in the order in which they
+/// need each other.
+struct Run {
+  SimulateOptions options;
+  Site site;
+  LoadedScene loaded;
+  std::unique_ptr<Clock> clock;
+  std::unique_ptr<EmulatedRoom> room;
+  std::unique_ptr<EyeSource> eyes;
+  const Tracker* tracker = nullptr;
+  std::unique_ptr<Surface> surface;
+  std::unique_ptr<WallRenderer> wall;
+};
+
+EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& clock) {
+  EmulatedRoomOptions room;
+  room.person.seed = room.wiimote.seed = options.seed;
+  room.person.start = clock.now();
+  room.wiimote.noise_px = options.noise_px;
+  return room;
+}
+
+/// Draws a few frames at a small size and picks the scale at which this machine keeps a fluid rate;
+/// what it can draw at full size, it draws so.
+double fluid_scale(const Run& run) {
+  constexpr double kTrialScale = 0.08, kBudget_s = 1.0 / 40;
+  WallRenderer trial(run.site.wall, kTrialScale, Style::lit);
+  trial.show(run.loaded.scene);
+  MonotonicClock clock;
+  FrameState state{.eye_in_wall = run.site.viewer.default_eye_in_wall,
+                   .navigation = run.loaded.navigation};
+  Duration fastest = std::chrono::hours(1);
+  for (int frame = 0; frame < 4; ++frame) {
+    const Time begin = clock.now();
+    trial.draw(state);
+    trial.finish();
+    fastest = std::min(fastest, clock.now() - begin);
+  }
+  const double scale = kTrialScale * std::sqrt(kBudget_s / seconds(fastest));
+  return std::clamp(scale, 0.04, 1.0);
+}
+
+std::unique_ptr<EyeSource> make_eyes(Run& run) {
+  const SimulateOptions& options = run.options;
+  if (options.mode == "loop")
+    return follow_path(read_camera_path(options.path_file.empty() ? find_asset("paths/sweep.toml")
+                                                                  : options.path_file));
+  auto tracked =
+      std::make_unique<TrackedEye>(run.site, *run.room, *run.clock, TrackerOptions{options.method});
+  run.tracker = &tracked->tracker();
+  return tracked;
+}
+
+Run assemble(const SimulateOptions& options) {
+  Run run{.options = options,
+          .site = load_site(options.wall_file),
+          .loaded = {},
+          .clock = {},
+          .room = {},
+          .eyes = {},
+          .surface = {},
+          .wall = {}};
+  if (run.site.cameras.empty() && options.mode == "track")
+    throw Error({"names no [[camera]]", options.wall_file,
+                 "add cameras with source = \"emulated\", or use --mode loop"});
+  run.loaded = load_scene(options.model, options.place, run.site);
+  const bool manual = options.clock == "manual";
+  if (manual)
+    run.clock = std::make_unique<ManualClock>();
+  else
+    run.clock = std::make_unique<MonotonicClock>();
+  const bool windowed = !options.headless && !manual && has_display();
+  if (windowed)
+    run.surface = make_window({.size = {1280, 900}, .title = "Vindu"});
+  else
+    run.surface = make_headless_surface({.device = options.device});
+  log_info("simulate", gl_description());
+  const double scale = options.scale ? *options.scale : manual ? 0.1 : fluid_scale(run);
+  run.wall = std::make_unique<WallRenderer>(run.site.wall, scale, Style::lit);
+  run.wall->show(run.loaded.scene);
+  run.room =
+      std::make_unique<EmulatedRoom>(run.site, *run.clock, room_options(options, *run.clock));
+  run.eyes = make_eyes(run);
+  return run;
+}
+
+/// The picture in the middle of a box of the window, as large as fits.
+void present_in(const WallRenderer& wall, const Picture& picture, int x, int y, SizePx box) {
+  const double scale = std::min(static_cast<double>(box.width) / picture.size().width,
+                                static_cast<double>(box.height) / picture.size().height);
+  const int width = static_cast<int>(picture.size().width * scale),
+            height = static_cast<int>(picture.size().height * scale);
+  glViewport(x + (box.width - width) / 2, y + (box.height - height) / 2, width, height);
+  wall.renderer().present(picture, {});
+}
+
+/// The window: the room above, the wall's picture below.
+class WindowPainter {
+ public:
+  WindowPainter(Run& run) : run_(run), room_(run.site, {960, 540}) {}
+  void paint(const FrameRecord& record) {
+    room_.draw(*run_.wall, run_.room->person().room_from_head(record.state.photon_time));
+    const SizePx size = run_.surface->size();
+    const int strip = size.height * 2 / 5;
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    room_.picture().make_mipmaps();
+    present_in(*run_.wall, room_.picture(), 0, strip, {size.width, size.height - strip});
+    present_in(*run_.wall, run_.wall->picture(), 0, 0, {size.width, strip});
+  }
+
+ private:
+  Run& run_;
+  RoomView room_;
+};
+
+LoopResult play(Run& run) {
+  LoopOptions loop{.rate_hz = run.site.rate_hz,
+                   .display_latency = from_seconds(1e-3 * run.site.viewer.display_latency_ms),
+                   .length = {},
+                   .navigation = run.loaded.navigation};
+  const bool windowed = dynamic_cast<Window*>(run.surface.get()) != nullptr;
+  if (run.options.seconds || !windowed)
+    loop.length = from_seconds(run.options.seconds.value_or(12));
+  std::optional<WindowPainter> painter;
+  if (windowed) painter.emplace(run);
+  const auto draw = [&](const FrameState& state) {
+    const WallFrame frame = run.wall->draw(state);
+    run.wall->finish();
+    return static_cast<int>(frame.black_tiles.size());
+  };
+  const auto present = [&](const FrameRecord& record) {
+    if (painter) painter->paint(record);
+    run.surface->present();
+    return !run.surface->close_wanted();
+  };
+  return run_frames(loop, *run.clock, *run.eyes, draw, present);
+}
+
+/// The moments worth a picture: farthest left, nearest to the wall, farthest right; among frames
+/// that were tracked.
+std::vector<std::pair<std::string, const FrameRecord*>> choose_moments(
+    const std::vector<FrameRecord>& frames) {
+  std::vector<const FrameRecord*> candidates;
+  for (const FrameRecord& frame : frames)
+    if (!frame.pose || frame.pose->level < TrackingLevel::held) candidates.push_back(&frame);
+  if (candidates.empty())
+    for (const FrameRecord& frame : frames) candidates.push_back(&frame);
+  if (candidates.empty()) return {};
+  const auto x = [](const FrameRecord* frame) { return frame->state.eye_in_wall.x(); };
+  const auto z = [](const FrameRecord* frame) { return frame->state.eye_in_wall.z(); };
+  return {{"To the left", *std::ranges::min_element(candidates, {}, x)},
+          {"Close to the wall", *std::ranges::min_element(candidates, {}, z)},
+          {"To the right", *std::ranges::max_element(candidates, {}, x)}};
+}
+
+Image shrunk(const Run& run, const Picture& picture, int width_px) {
+  const int height_px =
+      static_cast<int>(std::lround(1.0 * picture.size().height * width_px / picture.size().width));
+  Picture small({width_px, height_px}, Style::lit);
+  glBindFramebuffer(GL_FRAMEBUFFER, small.framebuffer());
+  present_in(*run.wall, picture, 0, 0, small.size());
+  return small.read();
+}
+
+Moment picture_moment(Run& run, WallRenderer& wall, RoomView& room, const std::string& title,
+                      const FrameRecord& frame) {
+  wall.draw(frame.state);
+  const Vec3& eye = frame.state.eye_in_wall;
+  room.draw(wall, run.room->person().room_from_head(frame.state.photon_time));
+  room.picture().make_mipmaps();
+  return {.title = title,
+          .caption = fmt::format("eye {:.2f} m {}, {:.2f} m before the wall", std::abs(eye.x()),
+                                 eye.x() < 0 ? "left" : "right", eye.z()),
+          .room = shrunk(run, room.picture(), kColumn_px),
+          .wall = shrunk(run, wall.picture(), kColumn_px),
+          .eye = picture_from_eye(wall, eye, {kColumn_px, kColumn_px * 9 / 16})};
+}
+
+void save_sheet(Run& run, const LoopResult& result) {
+  const auto moments = choose_moments(result.frames);
+  if (moments.empty()) return;
+  WallRenderer wall(run.site.wall, kSheetScale, Style::lit);
+  wall.show(run.loaded.scene);
+  RoomView room(run.site, kRoomPicture);
+  std::vector<Moment> pictures;
+  for (const auto& [title, frame] : moments)
+    pictures.push_back(picture_moment(run, wall, room, title, *frame));
+  make_folder(run.options.out);
+  const std::string source = run.options.mode == "loop"
+                                 ? "The eye follows a path"
+                                 : "Two emulated Wiimotes behind the person track the helmet";
+  const Image sheet =
+      contact_sheet({"Vindu: the wall is a window",
+                     source + "; each tile draws what that eye would see through it."},
+                    pictures);
+  write_png(sheet, run.options.out + "/contact-sheet.png");
+  for (std::size_t index = 0; index < moments.size(); ++index) {
+    const std::string base = run.options.out + "/moment-" + std::to_string(index + 1);
+    wall.draw(moments[index].second->state);
+    write_png(wall.picture().read(), base + "-wall.png");
+  }
+  std::printf("%s/contact-sheet.png\n", run.options.out.c_str());
+}
+
+int simulate(const SimulateOptions& options) {
+  Run run = assemble(options);
+  const LoopResult result = play(run);
+  save_sheet(run, result);
+  const RunReport report{.loop = result,
+                         .truth = run.tracker ? &run.room->person() : nullptr,
+                         .tracker = run.tracker,
+                         .scale = static_cast<double>(run.wall->layout().tiles.front().size.width) /
+                                  run.site.wall.tiles.front().width_px,
+                         .wall_px = run.wall->layout().size,
+                         .gl = gl_description()};
+  std::fputs((options.json ? json_of(report) : table_of(report)).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& parent, Action& chosen) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* app = parent.add_subcommand("simulate",
+                                        "The whole wall on this machine alone: a walking person, "
+                                        "emulated Wiimotes, tracker, all tiles");
+  app->add_option("MODEL", options->model,
+                  "Any model that Assimp reads (default: the wall file's, or the show)");
+  app->add_option("--wall", options->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
+      ->type_name("FILE");
+  add_place(*app, options->place);
+  app->add_option("--mode", options->mode, "track: the eye is tracked; loop: it follows a path")
+      ->check(CLI::IsMember({"track", "loop"}));
+  app->add_option("--path", options->path_file, "Camera path of loop mode")->type_name("FILE");
+  app->add_option("--method", options->method, "Tracking method")->check(CLI::IsMember({"thesis"}));
+  app->add_option("--seconds", options->seconds,
+                  "Length of the run (default: 12; in a window: until it is closed)")
+      ->check(CLI::Range(0.05, 1e6));
+  app->add_option("--scale", options->scale,
+                  "Pixels per pixel of the wall (default: what this machine draws fluidly)")
+      ->check(CLI::Range(0.005, 4.0));
+  app->add_option("--seed", options->seed, "Of the walk and of the cameras' noise");
+  app->add_option("--noise-px", options->noise_px, "Noise of the emulated cameras")
+      ->check(CLI::Range(0.0, 20.0));
+  app->add_option("--clock", options->clock,
+                  "manual: time moves by frames alone, so that runs are bit-equal")
+      ->check(CLI::IsMember({"real", "manual"}));
+  app->add_flag("--headless", options->headless, "No window, also where there is a display");
+  app->add_flag("--json", options->json, "Figures as JSON");
+  app->add_option("--device", options->device, "EGL device (GPU) by its index, without a window");
+  app->add_option("--out", options->out, "Folder for the pictures (default: out)")
+      ->type_name("DIR");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu simulate\n"
+      "  vindu simulate model.glb --seconds 30 --out pictures\n"
+      "  vindu simulate --mode loop --path path.toml --clock manual --seconds 5\n");
+  app->callback([options, &chosen] { chosen = [options] { return simulate(*options); }; });
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,279 @@
+// vindu view: a model on one screen, head-coupled: a window that looks through the screen into the
+// scene. The frustum follows the window when it is moved.
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/eye_source.h"
+#include "app/frame_loop.h"
+#include "app/report.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "renderer/resources.h"
+#include "renderer/scene_renderer.h"
+#include "renderer/surface.h"
+
+namespace vindu::app {
+namespace {
+
+constexpr SizePx kPicture{1280, 720};  // without a display
+
+struct ViewOptions {
+  std::string model;
+  std::string wall_file;
+  std::string path_file;
+  std::string out = "out";
+  std::optional<Placement> place;
+  std::optional<Vec3> eye;
+  std::optional<double> seconds;
+  std::optional<int> device;
+  std::vector<double> screen_mm;
+  std::uint64_t seed = 1;
+  bool mouse = false;
+  bool track = false;
+  bool fullscreen = false;
+};
+
+/// The screen as the monitor reports it, checked for sense, or as it was typed or written down.
+/// Metres.
+Vec2 screen_size_m(const ViewOptions& options, const ScreenReport& screen, const Site* site) {
+  if (options.screen_mm.size() == 2) return 1e-3 * Vec2(options.screen_mm[0], options.screen_mm[1]);
+  if (site) return {site->wall.grid.width_m, site->wall.grid.height_m};
+  const std::string doubt = doubt_about(screen);
+  if (doubt.empty()) return 1e-3 * Vec2(screen.width_mm, screen.height_mm);
+  const Vec2 assumed = 25.4e-3 / 96 * Vec2(screen.size.width, screen.size.height);
+  log_warning("screen " + screen.name, doubt + "; taken as " +
+                                           std::to_string(std::lround(1e3 * assumed.x())) + " x " +
+                                           std::to_string(std::lround(1e3 * assumed.y())) +
+                                           " mm; measure it and say --screen-mm WIDTH HEIGHT");
+  return assumed;
+}
+
+/// The site of one screen: the file's, or made from the screen's size.
+Site screen_site(const ViewOptions& options, const ScreenReport& screen) {
+  std::optional<Site> written;
+  if (!options.wall_file.empty()) written = read_site(options.wall_file);
+  if (written && written->wall.tiles.size() != 1)
+    throw Error(
+        {"has " + std::to_string(written->wall.tiles.size()) + " tiles, but view shows one screen",
+         options.wall_file, "use vindu simulate, or vindu render"});
+  const Vec2 size_m = screen_size_m(options, screen, written ? &*written : nullptr);
+  Site site = written.value_or(Site{});
+  const TileMount mount = written ? written->wall.tiles.front().mount : TileMount{};
+  const double height_m = written ? written->wall.room_from_wall.translation.y() : 1.2;
+  site.wall = single_screen(size_m.x(), size_m.y(), screen.size.width, screen.size.height);
+  site.wall.tiles.front().mount = mount;
+  site.wall.room_from_wall = room_from_wall_at(height_m, 0);
+  if (!written) site.viewer.default_eye_in_wall = {0, 0.15 * size_m.x(), 1.3 * size_m.x()};
+  return site;
+}
+
+/// The window's content on the screen; the whole screen where that is mirrored or turned.
+TileCorners content_corners(const Wall& screen, const Window& window) {
+  const Tile& tile = screen.tiles.front();
+  if (tile.mount != TileMount{}) return tile.corners;
+  const SizePx size = window.size();
+  const Vec2 pitch_m(tile.corners.width_m() / tile.width_px,
+                     tile.corners.height_m() / tile.height_px);
+  const Vec2 upper_left = window.content_on_screen_px().cwiseProduct(pitch_m);
+  const Vec3 screen_upper_left = tile.corners.upper_left_in_wall;
+  const Vec3 left_top = screen_upper_left + Vec3(upper_left.x(), -upper_left.y(), 0);
+  const Vec3 left_bottom = left_top - Vec3(0, size.height * pitch_m.y(), 0);
+  return {left_bottom, left_bottom + Vec3(size.width * pitch_m.x(), 0, 0), left_top};
+}
+
+/// A walk before a screen of this width: as wide as the screen twice, one to two widths away.
+PersonOptions walk_before(const Wall& wall, Time start, std::uint64_t seed) {
+  const double width_m = wall.grid.width_m, height_m = wall.room_from_wall.translation.y();
+  PersonOptions person;
+  person.seed = seed;
+  person.start = start;
+  person.least_eye_in_room = {-0.9 * width_m, height_m - 0.05 * width_m, 0.9 * width_m};
+  person.largest_eye_in_room = {0.9 * width_m, height_m + 0.4 * width_m, 1.8 * width_m};
+  person.peak_walk_m_s = std::min(0.5, 0.6 * width_m);
+  return person;
+}
+
+/// A model on the GPU, and where it stands.
+struct Shown {
+  GpuScene scene;
+  Navigation navigation;
+};
+
+Shown load_shown(const std::string& model, const ViewOptions& options, const Site& site,
+                 const TileCorners& content) {
+  Site place_before = site;  // fitted to the window, not to the screen
+  place_before.wall = single_screen(content.width_m(), content.height_m(), 1, 1);
+  LoadedScene loaded = load_scene(model, options.place, place_before);
+  const bool own_place = options.place == Placement::as_is;
+  if (!own_place) loaded.navigation.wall_from_scene.translation += content.centre_in_wall();
+  return {GpuScene(loaded.scene, Style::lit), loaded.navigation};
+}
+
+class Viewer {
+ public:
+  Viewer(const ViewOptions& options, Window& window)
+      : options_(options),
+        window_(window),
+        site_(screen_site(options, window.screen())),
+        renderer_(Style::lit),
+        shown_(load_shown(options.model, options, site_, content_corners(site_.wall, window))) {}
+
+  const Site& site() const { return site_; }
+  const Navigation& navigation() const { return shown_.navigation; }
+
+  int draw(const FrameState& state) {
+    const TileMount mount = site_.wall.tiles.front().mount;
+    SizePx size = window_.size();
+    if (size.width < 1 || size.height < 1) return 0;  // minimised
+    if (mount.rotate_deg % 180 == 90) std::swap(size.width, size.height);
+    if (!canvas_ || canvas_->size() != size) {
+      canvas_ = std::make_unique<Canvas>(size, Style::lit);
+      picture_ = std::make_unique<Picture>(size, Style::lit);
+    }
+    const auto view = tile_view(content_corners(site_.wall, window_), state.eye_in_wall);
+    shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
+                      state.animation_time_s);
+    const GpuScene* scenes[] = {&shown_.scene};
+    if (view)
+      renderer_.draw(*view, scenes, {}, *canvas_);
+    else
+      canvas_->begin();
+    canvas_->resolve(*picture_, 0, 0);
+    picture_->make_mipmaps();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, window_.size().width, window_.size().height);
+    renderer_.present(*picture_, mount);
+    return view ? 0 : 1;
+  }
+
+  /// A model dropped on the window replaces the shown one; one that cannot be loaded changes
+  /// nothing.
+  void take_dropped_model() {
+    const auto file = window_.take_dropped_file();
+    if (!file) return;
+    try {
+      shown_ = load_shown(*file, options_, site_, content_corners(site_.wall, window_));
+    } catch (const Error& error) {
+      log_warning("view", std::string(error.what()) + " (the scene before it stays)");
+    }
+  }
+
+ private:
+  const ViewOptions& options_;
+  Window& window_;
+  Site site_;
+  SceneRenderer renderer_;
+  Shown shown_;
+  std::unique_ptr<Canvas> canvas_;
+  std::unique_ptr<Picture> picture_;
+};
+
+std::unique_ptr<EyeSource> choose_eyes(const ViewOptions& options, Window& window, const Site& site,
+                                       const EmulatedRoom& room, Clock& clock) {
+  if (options.eye) return stay(*options.eye);
+  if (options.mouse) return follow_pointer(window, site.wall, site.viewer.default_eye_in_wall);
+  if (!options.path_file.empty()) return follow_path(read_camera_path(options.path_file));
+  if (!options.track) return follow_person(room.person());
+  if (site.cameras.empty())
+    throw Error({"no cameras are known", "--track",
+                 "name a wall file with [[camera]] tables: --wall FILE"});
+  return std::make_unique<TrackedEye>(site, room, clock, TrackerOptions{});
+}
+
+/// Where there is no display: one picture of the model on a screen of 0.53 m.
+int view_as_picture(const ViewOptions& options) {
+  const Site site = screen_site(
+      options, {.name = "picture", .size = kPicture, .width_mm = 527, .height_mm = 296});
+  const auto surface = make_headless_surface({.device = options.device});
+  Shown shown = load_shown(options.model, options, site, site.wall.tiles.front().corners);
+  shown.scene.pose(matrix_of(shown.navigation.wall_from_scene, shown.navigation.scale), 0);
+  const SceneRenderer renderer(Style::lit);
+  Canvas canvas(kPicture, Style::lit);
+  Picture picture(kPicture, Style::lit);
+  const Vec3 eye = options.eye.value_or(site.viewer.default_eye_in_wall);
+  const auto view = tile_view(site.wall.tiles.front().corners, eye);
+  if (!view) throw Error({"is at or behind the screen's plane", "--eye", "give an eye with z > 0"});
+  const GpuScene* scenes[] = {&shown.scene};
+  renderer.draw(*view, scenes, {}, canvas);
+  canvas.resolve(picture, 0, 0);
+  make_folder(options.out);
+  write_png(picture.read(), options.out + "/view.png");
+  log_info("view", "there is no display, so one picture was drawn");
+  std::printf("%s/view.png\n", options.out.c_str());
+  return 0;
+}
+
+int view(const ViewOptions& options) {
+  if (!has_display()) return view_as_picture(options);
+  const auto window =
+      make_window({.size = {1280, 720}, .title = "Vindu", .fullscreen = options.fullscreen});
+  MonotonicClock clock;
+  Viewer viewer(options, *window);
+  EmulatedRoomOptions room_options;
+  room_options.person = walk_before(viewer.site().wall, clock.now(), options.seed);
+  const EmulatedRoom room(viewer.site(), clock, room_options);
+  const auto eyes = choose_eyes(options, *window, viewer.site(), room, clock);
+  LoopOptions loop{.rate_hz = viewer.site().rate_hz,
+                   .display_latency = from_seconds(1e-3 * viewer.site().viewer.display_latency_ms),
+                   .length = {},
+                   .navigation = viewer.navigation()};
+  if (options.seconds) loop.length = from_seconds(*options.seconds);
+  const LoopResult result = run_frames(
+      loop, clock, *eyes, [&](const FrameState& state) { return viewer.draw(state); },
+      [&](const FrameRecord&) {
+        window->present();
+        viewer.take_dropped_model();
+        return !window->close_wanted();
+      });
+  const RunReport report{.loop = result, .wall_px = window->size(), .gl = gl_description()};
+  std::fputs(table_of(report).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_view(CLI::App& parent, Action& chosen) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* app = parent.add_subcommand(
+      "view", "A model on one screen, in the perspective of the head before it");
+  app->add_option("MODEL", options->model,
+                  "Any model that Assimp reads (default: the wall file's, or the show)");
+  app->add_option("--wall", options->wall_file, "Wall file of one screen, with its cameras")
+      ->type_name("FILE");
+  auto* eye = add_vec3(*app, "--eye", options->eye,
+                       "A fixed eye: metres from the screen's centre, +z towards the viewer");
+  auto* mouse =
+      app->add_flag("--mouse", options->mouse, "The pointer moves the eye, the wheel its distance");
+  auto* track = app->add_flag("--track", options->track,
+                              "The eye is tracked by the cameras that the wall file names");
+  auto* path = app->add_option("--path", options->path_file, "The eye follows a camera path")
+                   ->type_name("FILE");
+  mouse->excludes(eye)->excludes(track)->excludes(path);
+  track->excludes(eye)->excludes(path);
+  path->excludes(eye);
+  app->add_option("--screen-mm", options->screen_mm,
+                  "The screen's visible size, where it reports a wrong one")
+      ->expected(2)
+      ->check(CLI::Range(20.0, 50000.0))
+      ->type_name("WIDTH HEIGHT");
+  add_place(*app, options->place);
+  app->add_flag("--fullscreen", options->fullscreen, "Cover the screen");
+  app->add_option("--seconds", options->seconds, "End by itself")->check(CLI::Range(0.05, 1e6));
+  app->add_option("--seed", options->seed, "Of the simulated walk");
+  app->add_option("--device", options->device, "EGL device (GPU) by its index, without a display");
+  app->add_option("--out", options->out,
+                  "Folder for the picture where there is no display (default: out)");
+  app->footer(
+      "\nWithout --eye, --mouse, --track or --path the eye is that of a simulated person who walks "
+      "to and fro.\n"
+      "Drop another model on the window to see it. Escape ends.\n"
+      "\nExamples:\n"
+      "  vindu view model.glb --mouse\n"
+      "  vindu view scan.ply --eye 0,0.1,0.6 --screen-mm 527 296\n"
+      "  vindu view --track --wall desk.toml --fullscreen\n");
+  app->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
+}
+
+}  // namespace vindu::app

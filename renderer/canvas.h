@@ -1,0 +1,63 @@
+// What is drawn into and what comes out: a canvas with 32-bit float depth and, where light is
+// drawn, several samples a pixel in sRGB; and a picture, a plain texture that canvases are resolved
+// into and that can be read back.
+#pragma once
+
+#include "renderer/gl/handle.h"
+#include "renderer/image.h"
+
+namespace vindu {
+
+struct SizePx {
+  int width = 0;
+  int height = 0;
+  bool operator==(const SizePx&) const = default;
+};
+
+enum class Style {
+  lit,    ///< light, tone curve, sRGB, 4 samples a pixel
+  unlit,  ///< base colours as they are: no light, tone, sRGB or multisampling; for measuring
+};
+
+/// A texture; row 0 is the bottom, as OpenGL counts. Bound to the render thread.
+class Picture {
+ public:
+  Picture(SizePx size, Style style);
+
+  SizePx size() const { return size_; }
+  GLuint texture() const { return texture_.name(); }
+  GLuint framebuffer() const { return framebuffer_.name(); }
+  void clear(Rgba8 colour);
+  /// For pictures that are drawn smaller than they are.
+  void make_mipmaps() { glGenerateTextureMipmap(texture_.name()); }
+  Image read() const;
+  /// A part, its lower left at (x, y).
+  Image read(int x, int y, SizePx size) const;
+
+ private:
+  SizePx size_;
+  gl::Texture texture_;
+  gl::Framebuffer framebuffer_;
+};
+
+/// Bound to the render thread.
+class Canvas {
+ public:
+  /// Throws Error when the GPU cannot make one of this size.
+  Canvas(SizePx size, Style style);
+
+  SizePx size() const { return size_; }
+  /// Makes it the target of what is drawn next, cleared to black and infinitely far.
+  void begin();
+  /// Copies the result into `picture`, its lower left at (x, y).
+  void resolve(Picture& picture, int x, int y) const;
+
+ private:
+  SizePx size_;
+  Style style_;
+  gl::Renderbuffer colour_;
+  gl::Renderbuffer depth_;
+  gl::Framebuffer framebuffer_;
+};
+
+}  // namespace vindu

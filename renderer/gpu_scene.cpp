@@ -1,0 +1,163 @@
+#include "renderer/gpu_scene.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <glm/glm.hpp>
+
+#include "core/error.h"
+#include "renderer/gl/convert.h"
+
+namespace vindu {
+namespace {
+
+/// As shaders/scene_data.glsl declares them (std430).
+struct GpuMaterial {
+  glm::vec4 base_colour;
+  glm::vec4 emissive_metallic;
+  glm::vec4 roughness_cutoff_unlit;  // and 1 where there is a texture
+};
+struct GpuNode {
+  glm::mat4 world_from_node;
+  glm::mat4 normal_from_node;
+};
+struct GpuDraw {
+  std::uint32_t node;
+  std::uint32_t material;
+};
+
+GpuMaterial gpu_material(const Material& material) {
+  const float cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
+  const Eigen::Vector4f& base = material.base_colour;
+  return {{base.x(), base.y(), base.z(), base.w()},
+          {material.emissive.x(), material.emissive.y(), material.emissive.z(), material.metallic},
+          {material.roughness, cutoff, material.unlit ? 1.0f : 0.0f,
+           material.base_colour_texture >= 0 ? 1.0f : 0.0f}};
+}
+
+gl::Texture upload_texture(const Image& image, Style style) {
+  gl::Texture texture = gl::make_texture_2d();
+  const auto longest = static_cast<unsigned>(std::max(image.width_px, image.height_px));
+  glTextureStorage2D(texture.name(), std::bit_width(longest),
+                     style == Style::lit ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width_px,
+                     image.height_px);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width_px, image.height_px, GL_RGBA,
+                      GL_UNSIGNED_BYTE, image.pixels.data());
+  glGenerateTextureMipmap(texture.name());
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, 8.0f);
+  return texture;
+}
+
+void check_memory(const std::string& name) {
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    throw Error({"is too large for this GPU's memory", name, "use a smaller model"});
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene, Style style) : triangle_count_(scene.triangle_count()) {
+  skeleton_.nodes = scene.nodes;
+  skeleton_.animations = scene.animations;
+  list_draws(scene);
+  upload_geometry(scene);
+  upload_materials(scene);
+  upload_textures(scene, style);
+  nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * sizeof(GpuNode), GL_DYNAMIC_STORAGE_BIT);
+  check_memory(scene.name);
+  pose(Mat4::Identity(), 0);
+}
+
+void GpuScene::list_draws(const Scene& scene) {
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+    for (const int index : scene.nodes[node].meshes) {
+      const Mesh& mesh = scene.meshes[index];
+      const Material& material = scene.materials[mesh.material];
+      draws_.push_back({static_cast<int>(node), mesh, material.alpha_mode, material.double_sided,
+                        material.base_colour_texture});
+    }
+  std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
+    return std::pair(a.alpha_mode, a.texture) < std::pair(b.alpha_mode, b.texture);
+  });
+}
+
+void GpuScene::upload_geometry(const Scene& scene) {
+  vertices_ = gl::make_buffer(scene.vertices.data(), scene.vertices.size() * sizeof(Vertex));
+  indices_ = gl::make_buffer(scene.indices.data(), scene.indices.size() * sizeof(std::uint32_t));
+  std::vector<GpuDraw> data;
+  for (const Draw& draw : draws_)
+    data.push_back(
+        {static_cast<std::uint32_t>(draw.node), static_cast<std::uint32_t>(draw.mesh.material)});
+  draw_data_ = gl::make_buffer(data.data(), data.size() * sizeof(GpuDraw));
+  vertex_array_ = gl::make_vertex_array();
+  const GLuint array = vertex_array_.name();
+  glVertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(Vertex));
+  glVertexArrayVertexBuffer(array, 1, draw_data_.name(), 0, sizeof(GpuDraw));
+  glVertexArrayBindingDivisor(array, 1, 1);
+  glVertexArrayElementBuffer(array, indices_.name());
+  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position_in_node));
+  glVertexArrayAttribFormat(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal_in_node));
+  glVertexArrayAttribFormat(array, 2, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
+  glVertexArrayAttribFormat(array, 3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, colour));
+  glVertexArrayAttribIFormat(array, 4, 2, GL_UNSIGNED_INT, 0);
+  for (GLuint attribute = 0; attribute < 5; ++attribute) {
+    glEnableVertexArrayAttrib(array, attribute);
+    glVertexArrayAttribBinding(array, attribute, attribute == 4 ? 1 : 0);
+  }
+}
+
+void GpuScene::upload_materials(const Scene& scene) {
+  std::vector<GpuMaterial> materials;
+  for (const Material& material : scene.materials) materials.push_back(gpu_material(material));
+  materials_ = gl::make_buffer(materials.data(), materials.size() * sizeof(GpuMaterial));
+}
+
+void GpuScene::upload_textures(const Scene& scene, Style style) {
+  white_ = upload_texture(Image::filled(1, 1, {255, 255, 255, 255}), style);
+  for (const Image& image : scene.textures) textures_.push_back(upload_texture(image, style));
+}
+
+void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s) {
+  world_from_node_ = node_transforms(skeleton_, animation_time_s);
+  mirrored_.resize(world_from_node_.size());
+  std::vector<GpuNode> data(world_from_node_.size());
+  for (std::size_t node = 0; node < data.size(); ++node) {
+    const Mat4 world_from_node = world_from_scene * world_from_node_[node].cast<double>();
+    world_from_node_[node] = world_from_node.cast<float>();
+    const Mat3 linear = world_from_node.topLeftCorner<3, 3>();
+    const double determinant = linear.determinant();
+    mirrored_[node] = determinant < 0;
+    // Normals turn with the inverse transpose; a node flattened to nothing keeps any.
+    Mat4 normal = Mat4::Identity();
+    if (determinant != 0) normal.topLeftCorner<3, 3>() = linear.inverse().transpose();
+    data[node] = {gl::mat4_from(world_from_node), gl::mat4_from(normal)};
+  }
+  glNamedBufferSubData(nodes_.name(), 0, static_cast<GLsizeiptr>(data.size() * sizeof(GpuNode)),
+                       data.data());
+}
+
+Box3f GpuScene::bounds_in_world() const {
+  Box3f bounds;
+  for (const Draw& draw : draws_) {
+    const Box3f box = draw.mesh.bounds_in_node;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3f point = box.corner(static_cast<Box3f::CornerType>(corner));
+      bounds.extend((world_from_node_[draw.node] * point.homogeneous()).head<3>());
+    }
+  }
+  return bounds;
+}
+
+void GpuScene::bind() const {
+  glBindVertexArray(vertex_array_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, nodes_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, materials_.name());
+}
+
+void GpuScene::bind_texture(int texture) const {
+  glBindTextureUnit(0, texture < 0 ? white_.name() : textures_[texture].name());
+}
+
+}  // namespace vindu

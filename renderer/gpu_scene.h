@@ -1,0 +1,63 @@
+// A scene on the GPU: one vertex and one index buffer, materials, textures, and where every node
+// stands this frame. One copy serves any number of views. Bound to the render thread.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/rigid3.h"
+#include "renderer/canvas.h"
+#include "renderer/scene.h"
+
+namespace vindu {
+
+class GpuScene {
+ public:
+  /// Keeps `scene`'s nodes and animations, not its geometry. Throws Error when the GPU's memory
+  /// does not suffice.
+  GpuScene(const Scene& scene, Style style);
+
+  /// Once a frame, before any view is drawn: where the scene stands, and its animation's time.
+  void pose(const Mat4& world_from_scene, double animation_time_s);
+
+  /// Of what is posed, in world.
+  Box3f bounds_in_world() const;
+  std::size_t triangle_count() const { return triangle_count_; }
+
+  /// One mesh at one node: what the renderer walks over.
+  struct Draw {
+    int node = 0;
+    Mesh mesh;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    bool double_sided = false;
+    int texture = -1;
+  };
+  const std::vector<Draw>& draws() const { return draws_; }  ///< opaque, then masked, then blended
+  const Eigen::Matrix4f& world_from_node(int node) const { return world_from_node_[node]; }
+  bool mirrored(int node) const { return mirrored_[node]; }
+  /// Binds vertex array, materials and nodes for drawing.
+  void bind() const;
+  void bind_texture(int texture) const;
+
+ private:
+  void upload_geometry(const Scene& scene);
+  void upload_materials(const Scene& scene);
+  void upload_textures(const Scene& scene, Style style);
+  void list_draws(const Scene& scene);
+
+  Scene skeleton_;  // nodes and animations
+  std::size_t triangle_count_ = 0;
+  std::vector<Draw> draws_;
+  std::vector<Eigen::Matrix4f> world_from_node_;
+  std::vector<bool> mirrored_;
+  gl::Buffer vertices_;
+  gl::Buffer indices_;
+  gl::Buffer draw_data_;  // node and material of each draw, read once an instance
+  gl::Buffer materials_;
+  gl::Buffer nodes_;
+  gl::VertexArray vertex_array_;
+  std::vector<gl::Texture> textures_;
+  gl::Texture white_;
+};
+
+}  // namespace vindu

@@ -1,0 +1,93 @@
+// The headless surface: EGL without a display, on Mesa's surfaceless platform or on a device chosen
+// by its index.
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <array>
+#include <sstream>
+#include <vector>
+
+#include "core/error.h"
+#include "renderer/surface.h"
+
+namespace vindu {
+namespace {
+
+[[noreturn]] void fail(const std::string& step) {
+  std::ostringstream code;
+  code << std::hex << "0x" << eglGetError();
+  throw Error(
+      {step + " failed with EGL error " + code.str(), "EGL without a display",
+       "install a driver with OpenGL 4.5 (Mesa: libgl1-mesa-dri), or choose another --device"});
+}
+
+std::vector<EGLDeviceEXT> list_devices() {
+  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) return {};
+  std::array<EGLDeviceEXT, 32> devices{};
+  EGLint count = 0;
+  if (!eglQueryDevicesEXT(devices.size(), devices.data(), &count)) return {};
+  return {devices.begin(), devices.begin() + count};
+}
+
+EGLDisplay device_display(int index) {
+  const std::vector<EGLDeviceEXT> devices = list_devices();
+  if (index < 0 || index >= static_cast<int>(devices.size()))
+    throw Error({"there is no EGL device " + std::to_string(index), "--device",
+                 devices.empty() ? "this EGL lists no devices"
+                                 : "choose 0 to " + std::to_string(devices.size() - 1)});
+  return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[index], nullptr);
+}
+
+EGLDisplay choose_display(const HeadlessOptions& options) {
+  if (options.device) return device_display(*options.device);
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+    return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  return device_display(0);
+}
+
+class HeadlessSurface final : public Surface {
+ public:
+  explicit HeadlessSurface(const HeadlessOptions& options) : display_(choose_display(options)) {
+    if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
+      fail("eglInitialize");
+    if (!eglBindAPI(EGL_OPENGL_API)) fail("eglBindAPI");
+    constexpr std::array<EGLint, 7> attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                                  4,
+                                                  EGL_CONTEXT_MINOR_VERSION,
+                                                  5,
+                                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                  EGL_NONE};
+    context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    if (context_ == EGL_NO_CONTEXT) fail("eglCreateContext for OpenGL 4.5");
+    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) fail("eglMakeCurrent");
+  }
+  HeadlessSurface(const HeadlessSurface&) = delete;
+  HeadlessSurface& operator=(const HeadlessSurface&) = delete;
+  ~HeadlessSurface() override {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display_, context_);
+    eglTerminate(display_);
+  }
+
+  SizePx size() const override { return {}; }
+  void present() override { glFinish(); }
+  bool close_wanted() const override { return false; }
+
+ private:
+  EGLDisplay display_;
+  EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+}  // namespace
+
+std::unique_ptr<Surface> make_headless_surface(const HeadlessOptions& options) {
+  return std::make_unique<HeadlessSurface>(options);
+}
+
+std::string gl_description() {
+  const auto text = [](GLenum name) { return reinterpret_cast<const char*>(glGetString(name)); };
+  return std::string(text(GL_RENDERER)) + ", OpenGL " + text(GL_VERSION);
+}
+
+}  // namespace vindu

@@ -1,0 +1,164 @@
+#include "renderer/scene_renderer.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "renderer/gl/convert.h"
+
+namespace vindu {
+namespace {
+
+/// Nothing of the box is inside the view: all eight corners lie outside one of its planes. In clip
+/// space each plane is a half-space of the world also for corners behind the eye, so the test holds
+/// for any off-axis frustum.
+bool outside(const Mat4& clip_from_node, const Box3f& box) {
+  bool left = true, right = true, below = true, above = true, before = true;
+  for (int index = 0; index < 8; ++index) {
+    const Vec3 corner = box.corner(static_cast<Box3f::CornerType>(index)).cast<double>();
+    const Vec4 clip = clip_from_node * corner.homogeneous();
+    left &= clip.x() < -clip.w();
+    right &= clip.x() > clip.w();
+    below &= clip.y() < -clip.w();
+    above &= clip.y() > clip.w();
+    before &= clip.z() > clip.w();
+  }
+  return left || right || below || above || before;
+}
+
+/// Farthest first; the eye decides, so that all tiles agree.
+std::vector<const GpuScene::Draw*> blended_draws(const GpuScene& scene, const Vec3& eye_in_world) {
+  std::vector<std::pair<double, const GpuScene::Draw*>> found;
+  for (const GpuScene::Draw& draw : scene.draws()) {
+    if (draw.alpha_mode != AlphaMode::blend) continue;
+    const Eigen::Vector3f middle = draw.mesh.bounds_in_node.center();
+    const Eigen::Vector3f place =
+        (scene.world_from_node(draw.node) * middle.homogeneous()).head<3>();
+    found.emplace_back((place.cast<double>() - eye_in_world).norm(), &draw);
+  }
+  std::ranges::stable_sort(found, std::greater{}, &std::pair<double, const GpuScene::Draw*>::first);
+  std::vector<const GpuScene::Draw*> sorted;
+  for (const auto& [distance, draw] : found) sorted.push_back(draw);
+  return sorted;
+}
+
+std::vector<const GpuScene::Draw*> solid_draws(const GpuScene& scene) {
+  std::vector<const GpuScene::Draw*> found;
+  for (const GpuScene::Draw& draw : scene.draws())
+    if (draw.alpha_mode != AlphaMode::blend) found.push_back(&draw);
+  return found;
+}
+
+}  // namespace
+
+SceneRenderer::SceneRenderer(Style style)
+    : style_(style),
+      scene_program_("scene.vert", "scene.frag", style == Style::unlit ? "#define MEASURE\n" : ""),
+      background_program_("fullscreen.vert", "background.frag"),
+      panel_program_("panel.vert", "panel.frag"),
+      present_program_("fullscreen.vert", "present.frag"),
+      no_vertices_(gl::make_vertex_array()) {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glDepthFunc(GL_GREATER);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+DrawCount SceneRenderer::draw(const View& view, std::span<const GpuScene* const> scenes,
+                              std::span<const Panel> panels, Canvas& canvas) const {
+  DrawCount count;
+  canvas.begin();
+  glEnable(GL_DEPTH_TEST);
+  for (const GpuScene* scene : scenes) draw_scene(view, *scene, false, count);
+  for (const Panel& panel : panels) draw_panel(view, panel);
+  if (style_ == Style::lit) draw_background(view);
+  glEnable(GL_BLEND);
+  glDepthMask(GL_FALSE);
+  for (const GpuScene* scene : scenes) draw_scene(view, *scene, true, count);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  return count;
+}
+
+void SceneRenderer::draw_panels(const View& view, std::span<const Panel> panels,
+                                Canvas& canvas) const {
+  canvas.begin();
+  glEnable(GL_DEPTH_TEST);
+  for (const Panel& panel : panels) draw_panel(view, panel);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+}
+
+void SceneRenderer::draw_scene(const View& view, const GpuScene& scene, bool blended,
+                               DrawCount& count) const {
+  scene_program_.use();
+  scene_program_.set("clip_from_world", gl::mat4_from(view.clip_from_world));
+  scene_program_.set("eye_in_world", gl::vec3_from(view.eye_in_world));
+  scene.bind();
+  const auto draws = blended ? blended_draws(scene, view.eye_in_world) : solid_draws(scene);
+  for (const GpuScene::Draw* draw : draws) {
+    ++count.draws;
+    const Mat4 clip_from_node =
+        view.clip_from_world * scene.world_from_node(draw->node).cast<double>();
+    if (outside(clip_from_node, draw->mesh.bounds_in_node)) {
+      ++count.culled;
+      continue;
+    }
+    scene.bind_texture(draw->texture);
+    (draw->double_sided ? glDisable : glEnable)(GL_CULL_FACE);
+    glFrontFace(scene.mirrored(draw->node) ? GL_CW : GL_CCW);
+    const auto offset = static_cast<std::uintptr_t>(draw->mesh.first_index) * sizeof(std::uint32_t);
+    const auto instance = static_cast<GLuint>(draw - scene.draws().data());
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(draw->mesh.index_count),
+                                        GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), 1,
+                                        instance);
+  }
+}
+
+void SceneRenderer::draw_panel(const View& view, const Panel& panel) const {
+  const TileCorners& corners = panel.corners_in_world;
+  panel_program_.use();
+  panel_program_.set("clip_from_world", gl::mat4_from(view.clip_from_world));
+  panel_program_.set("lower_left_in_world", gl::vec3_from(corners.lower_left_in_wall));
+  panel_program_.set("right_edge",
+                     gl::vec3_from(corners.lower_right_in_wall - corners.lower_left_in_wall));
+  panel_program_.set("up_edge",
+                     gl::vec3_from(corners.upper_left_in_wall - corners.lower_left_in_wall));
+  panel_program_.set("uv_low", glm::vec2(panel.uv_low.x(), panel.uv_low.y()));
+  panel_program_.set("uv_high", glm::vec2(panel.uv_high.x(), panel.uv_high.y()));
+  glBindTextureUnit(0, panel.picture->texture());
+  glBindVertexArray(no_vertices_.name());
+  glEnable(GL_CULL_FACE);
+  glFrontFace(GL_CCW);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void SceneRenderer::draw_background(const View& view) const {
+  background_program_.use();
+  background_program_.set("direction_from_ndc", gl::mat3_from(direction_from_ndc(view)));
+  glBindVertexArray(no_vertices_.name());
+  glDisable(GL_CULL_FACE);
+  glDepthFunc(GL_GEQUAL);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthFunc(GL_GREATER);
+}
+
+void SceneRenderer::present(const Picture& picture, const TileMount& mount) const {
+  present_program_.use();
+  present_program_.set("picture_from_display", gl::mat3_from(picture_from_display(mount)));
+  glBindTextureUnit(0, picture.texture());
+  glBindVertexArray(no_vertices_.name());
+  (style_ == Style::lit ? glEnable : glDisable)(GL_FRAMEBUFFER_SRGB);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Mat3 picture_from_display(const TileMount& mount) {
+  // display = turn clockwise * mirror * picture, so picture = mirror * turn counter-clockwise *
+  // display.
+  const double angle = radians(mount.rotate_deg);
+  const Mat3 back = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+  const Vec3 mirror(mount.mirror ? -1 : 1, 1, 1);
+  return mirror.asDiagonal() * back;
+}
+
+}  // namespace vindu

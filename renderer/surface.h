@@ -1,0 +1,76 @@
+// The surface seam: where frames go. A window by GLFW, or EGL without any display. Each makes an
+// OpenGL 4.5 core context and is bound to the thread that made it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/rigid3.h"
+#include "renderer/canvas.h"
+
+namespace vindu {
+
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  /// Pixels of the framebuffer to present into; headless surfaces keep the size that they were made
+  /// with.
+  virtual SizePx size() const = 0;
+  /// Shows what was drawn into framebuffer 0 and handles the window's events.
+  virtual void present() = 0;
+  virtual bool close_wanted() const = 0;
+};
+
+struct HeadlessOptions {
+  /// Index of an EGL device (a GPU); empty: Mesa's surfaceless platform, or where there is none the
+  /// first device.
+  std::optional<int> device;
+};
+
+/// Throws Error that says which EGL step failed and what is there.
+std::unique_ptr<Surface> make_headless_surface(const HeadlessOptions& options = {});
+
+/// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6" of the current
+/// context.
+std::string gl_description();
+
+struct WindowOptions {
+  SizePx size = {1280, 720};
+  std::string title = "Vindu";
+  bool fullscreen = false;
+};
+
+/// What a screen says of itself; millimetres may be invented (Xvfb) or zero (projectors).
+struct ScreenReport {
+  std::string name;
+  SizePx size;
+  int width_mm = 0;
+  int height_mm = 0;
+};
+
+/// Why a reported size cannot be right, or empty: 40 to 400 dots per inch, pixels nearly square.
+std::string doubt_about(const ScreenReport& screen);
+
+class Window : public Surface {
+ public:
+  /// The screen that most of the window is on.
+  virtual ScreenReport screen() const = 0;
+  /// Upper left of the window's content and of that screen; pixels from the upper left of the
+  /// desktop.
+  virtual Vec2 content_on_screen_px() const = 0;
+  /// Pointer from -1 to 1 across the content, y up; wheel turns since the last call.
+  virtual Vec2 pointer() const = 0;
+  virtual double take_wheel() = 0;
+  /// Paths that were dropped onto the window since the last call.
+  virtual std::optional<std::string> take_dropped_file() = 0;
+};
+
+/// Whether a window can be opened at all (DISPLAY or WAYLAND_DISPLAY).
+bool has_display();
+
+/// Throws Error where there is no display or no OpenGL 4.5.
+std::unique_ptr<Window> make_window(const WindowOptions& options);
+
+}  // namespace vindu

@@ -1,0 +1,63 @@
+#include "renderer/view.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace vindu {
+
+std::optional<View> tile_view(const TileCorners& corners, const Vec3& eye_in_wall) {
+  const auto clip = clip_from_wall(corners, eye_in_wall);
+  if (!clip) return std::nullopt;
+  return View{*clip, eye_in_wall};
+}
+
+View camera_view(const Camera& camera) {
+  const Vec3 forward = (camera.target_in_world - camera.eye_in_world).normalized();
+  const Vec3 right = forward.cross(Vec3::UnitY()).normalized();
+  const Vec3 up = right.cross(forward);
+  const double half_height = std::tan(0.5 * camera.fov_y_rad);
+  const Vec3 across = camera.aspect * half_height * right, along = half_height * up;
+  const Vec3 middle = camera.eye_in_world + forward;
+  const TileCorners screen{middle - across - along, middle + across - along,
+                           middle - across + along};
+  return *tile_view(screen, camera.eye_in_world);
+}
+
+Camera camera_on_wall(const Wall& wall, const Vec3& eye_in_wall, double aspect) {
+  Vec3 middle = Vec3::Zero();
+  for (const Tile& tile : wall.tiles) middle += tile.corners.centre_in_wall();
+  middle /= static_cast<double>(wall.tiles.size());
+  Camera camera{.eye_in_world = eye_in_wall, .target_in_world = middle, .aspect = aspect};
+  const Vec3 forward = (middle - eye_in_wall).normalized();
+  const Vec3 right = forward.cross(Vec3::UnitY()).normalized();
+  const Vec3 up = right.cross(forward);
+  const double widest = std::min(std::tan(radians(60)), std::tan(radians(70)) / aspect);
+  double half_height = 0;
+  for (const Tile& tile : wall.tiles)
+    for (const Vec3& corner :
+         {tile.corners.lower_left_in_wall, tile.corners.lower_right_in_wall,
+          tile.corners.upper_left_in_wall, tile.corners.upper_right_in_wall()}) {
+      const Vec3 ray = corner - eye_in_wall;
+      const double depth = ray.dot(forward);
+      if (depth <= 1e-6) return camera.fov_y_rad = 2 * std::atan(widest), camera;
+      half_height = std::max(
+          {half_height, std::abs(ray.dot(up)) / depth, std::abs(ray.dot(right)) / depth / aspect});
+    }
+  camera.fov_y_rad = 2 * std::atan(std::min(1.03 * half_height, widest));
+  return camera;
+}
+
+Mat3 direction_from_ndc(const View& view) {
+  // A point at depth w = 1 has clip coordinates (x, y, near, 1); its world place is linear in x and
+  // y.
+  const Mat4 world_from_clip = view.clip_from_world.inverse();
+  const double near_m = view.clip_from_world(2, 3);
+  Mat3 directions;
+  directions.col(0) = world_from_clip.topLeftCorner<3, 1>();
+  directions.col(1) = world_from_clip.block<3, 1>(0, 1);
+  directions.col(2) = (world_from_clip * Vec4(0, 0, near_m, 1)).head<3>() - view.eye_in_world;
+  return directions;
+}
+
+}  // namespace vindu

@@ -1,0 +1,70 @@
+// A wall's frame: from a FrameState and a scene to the pictures of any number of tiles, with one
+// context and one copy of the scene, joined to one picture of the wall. Bound to the render thread.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/frame_state.h"
+#include "core/wall.h"
+#include "renderer/scene_renderer.h"
+
+namespace vindu {
+
+/// Where a tile's pixels lie in the picture of the whole wall, from its lower left; bezels are
+/// gaps.
+struct TilePlace {
+  int x = 0;
+  int y = 0;
+  SizePx size;
+};
+
+struct WallLayout {
+  SizePx size;
+  std::vector<TilePlace> tiles;  ///< in the order of Wall::tiles
+};
+
+/// Tiles in their places of the grid, each side scaled and rounded to at least one pixel.
+WallLayout layout_of(const Wall& wall, double scale);
+
+struct WallFrame {
+  DrawCount count;
+  std::vector<std::string> black_tiles;  ///< the eye is at or behind their plane
+};
+
+class WallRenderer {
+ public:
+  /// Throws Error when the picture is too large for this GPU.
+  WallRenderer(const Wall& wall, double scale, Style style);
+
+  /// Replaces the scene; when that throws, the old one stays.
+  void show(const Scene& scene);
+
+  /// Draws all tiles, or only one, into picture().
+  WallFrame draw(const FrameState& state, const Tile* only = nullptr);
+
+  /// Waits until the GPU has drawn everything.
+  void finish() const { glFinish(); }
+
+  const Wall& wall() const { return wall_; }
+  const WallLayout& layout() const { return layout_; }
+  const SceneRenderer& renderer() const { return renderer_; }
+  Picture& picture() { return *picture_; }
+  Image read_tile(std::size_t index) const;
+
+  /// The tiles as they hang in the room or, with identity, in wall's own frame.
+  std::vector<Panel> panels(const Rigid3& world_from_wall) const;
+
+ private:
+  Canvas& canvas_of(SizePx size);
+
+  Wall wall_;
+  WallLayout layout_;
+  SceneRenderer renderer_;
+  std::unique_ptr<Picture> picture_;
+  std::vector<std::unique_ptr<Canvas>> canvases_;  // one for each size of tile
+  std::unique_ptr<GpuScene> scene_;
+};
+
+}  // namespace vindu

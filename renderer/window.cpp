@@ -1,0 +1,192 @@
+// The window surface, by GLFW.
+#include <epoxy/gl.h>
+// epoxy first: GLFW must not bring OpenGL headers of its own
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "core/error.h"
+#include "renderer/surface.h"
+
+namespace vindu {
+namespace {
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+/// GLFW's own life: initialised once, ended with the last window.
+struct Glfw {
+  Glfw() {
+    glfwInitHint(GLFW_JOYSTICK_HAT_BUTTONS, GLFW_FALSE);
+    if (!glfwInit())
+      throw Error({"cannot open a window: " + last_glfw_error(), "display",
+                   "set DISPLAY, or draw without a window: vindu render"});
+  }
+  Glfw(const Glfw&) = delete;
+  Glfw& operator=(const Glfw&) = delete;
+  ~Glfw() { glfwTerminate(); }
+};
+
+struct Rect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+long overlap(const Rect& a, const Rect& b) {
+  const long width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  const long height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+  return width > 0 && height > 0 ? width * height : 0;
+}
+
+Rect rect_of(GLFWmonitor* monitor) {
+  Rect rect;
+  glfwGetMonitorPos(monitor, &rect.x, &rect.y);
+  if (const GLFWvidmode* mode = glfwGetVideoMode(monitor)) {
+    rect.width = mode->width;
+    rect.height = mode->height;
+  }
+  return rect;
+}
+
+class GlfwWindow final : public Window {
+ public:
+  explicit GlfwWindow(const WindowOptions& options) {
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    GLFWmonitor* monitor = options.fullscreen ? glfwGetPrimaryMonitor() : nullptr;
+    SizePx size = options.size;
+    if (monitor) {
+      const Rect screen = rect_of(monitor);
+      size = {screen.width, screen.height};
+    }
+    window_ = glfwCreateWindow(size.width, size.height, options.title.c_str(), monitor, nullptr);
+    if (!window_)
+      throw Error({"cannot open a window: " + last_glfw_error(), "display",
+                   "OpenGL 4.5 is needed; draw without a window: vindu render"});
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetScrollCallback(
+        window_, [](GLFWwindow* window, double, double turns) { self(window).wheel_ += turns; });
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+      if (count > 0) self(window).dropped_ = paths[0];
+    });
+  }
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
+  ~GlfwWindow() override { glfwDestroyWindow(window_); }
+
+  SizePx size() const override {
+    SizePx size;
+    glfwGetFramebufferSize(window_, &size.width, &size.height);
+    return size;
+  }
+  void present() override {
+    glfwSwapBuffers(window_);
+    glfwPollEvents();
+    if (glfwGetKey(window_, GLFW_KEY_ESCAPE) == GLFW_PRESS)
+      glfwSetWindowShouldClose(window_, GLFW_TRUE);
+  }
+  bool close_wanted() const override { return glfwWindowShouldClose(window_); }
+
+  ScreenReport screen() const override {
+    GLFWmonitor* monitor = current_monitor();
+    if (!monitor) return {};
+    const Rect rect = rect_of(monitor);
+    ScreenReport report{glfwGetMonitorName(monitor), {rect.width, rect.height}};
+    glfwGetMonitorPhysicalSize(monitor, &report.width_mm, &report.height_mm);
+    return report;
+  }
+  Vec2 content_on_screen_px() const override {
+    const Rect window = window_rect();
+    GLFWmonitor* monitor = current_monitor();
+    const Rect screen = monitor ? rect_of(monitor) : Rect{};
+    return {window.x - screen.x, window.y - screen.y};
+  }
+  Vec2 pointer() const override {
+    double x = 0, y = 0;
+    int width = 1, height = 1;
+    glfwGetCursorPos(window_, &x, &y);
+    glfwGetWindowSize(window_, &width, &height);
+    return {std::clamp(2 * x / std::max(width, 1) - 1, -1.0, 1.0),
+            std::clamp(1 - 2 * y / std::max(height, 1), -1.0, 1.0)};
+  }
+  double take_wheel() override { return std::exchange(wheel_, 0); }
+  std::optional<std::string> take_dropped_file() override {
+    return std::exchange(dropped_, std::nullopt);
+  }
+
+ private:
+  static GlfwWindow& self(GLFWwindow* window) {
+    return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
+  }
+  Rect window_rect() const {
+    Rect rect;
+    glfwGetWindowPos(window_, &rect.x, &rect.y);
+    glfwGetWindowSize(window_, &rect.width, &rect.height);
+    return rect;
+  }
+  GLFWmonitor* current_monitor() const {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    GLFWmonitor* best = nullptr;
+    long most = -1;
+    for (int index = 0; index < count; ++index)
+      if (const long shared = overlap(window_rect(), rect_of(monitors[index])); shared > most) {
+        most = shared;
+        best = monitors[index];
+      }
+    return best;
+  }
+
+  Glfw glfw_;
+  GLFWwindow* window_ = nullptr;
+  double wheel_ = 0;
+  std::optional<std::string> dropped_;
+};
+
+}  // namespace
+
+std::string doubt_about(const ScreenReport& screen) {
+  if (screen.width_mm <= 0 || screen.height_mm <= 0) return "it reports no size";
+  const double dpi_x = 25.4 * screen.size.width / screen.width_mm;
+  const double dpi_y = 25.4 * screen.size.height / screen.height_mm;
+  const std::string shown =
+      std::to_string(screen.width_mm) + " x " + std::to_string(screen.height_mm) + " mm";
+  if (std::abs(dpi_x / dpi_y - 1) > 0.1)
+    return "its " + shown + " would make pixels that are not square";
+  if (dpi_x < 40 || dpi_x > 400)
+    return "its " + shown + " would be " + std::to_string(std::lround(dpi_x)) + " dpi";
+  const auto invented_mm = [](int px) { return px * 25.4 / 96; };
+  if (std::abs(screen.width_mm - invented_mm(screen.size.width)) < 0.6 &&
+      std::abs(screen.height_mm - invented_mm(screen.size.height)) < 0.6)
+    return "its " + shown + " is just what 96 dpi gives, which display servers invent";
+  return "";
+}
+
+bool has_display() {
+  const auto set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value && *value;
+  };
+  return set("DISPLAY") || set("WAYLAND_DISPLAY");
+}
+
+std::unique_ptr<Window> make_window(const WindowOptions& options) {
+  if (!has_display())
+    throw Error({"there is no display to open a window on", "DISPLAY",
+                 "log in to one, or draw pictures: vindu render"});
+  return std::make_unique<GlfwWindow>(options);
+}
+
+}  // namespace vindu
