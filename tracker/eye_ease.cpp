@@ -1,0 +1,49 @@
+#include "tracker/eye_ease.h"
+
+#include <algorithm>
+
+namespace vindu {
+namespace {
+
+// 3u^2 - 2u^3: from 0 to 1, at rest at both ends, steepest slope 1.5.
+double smooth_step(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * (3 - 2 * u);
+}
+
+}  // namespace
+
+EyeEase::EyeEase(const Vec3& default_eye_in_wall, const EyeEaseOptions& options)
+    : options_(options),
+      default_eye_in_wall_(default_eye_in_wall),
+      shown_in_wall_(default_eye_in_wall),
+      start_(default_eye_in_wall) {}
+
+Vec3 EyeEase::update(const std::optional<Vec3>& tracked_eye_in_wall, Time now) {
+  const Phase phase = tracked_eye_in_wall ? Phase::tracked : Phase::lost;
+  if (!started_ || phase != phase_) {
+    started_ = true;
+    phase_ = phase;
+    since_ = now;
+    start_ = tracked_eye_in_wall ? Vec3(shown_in_wall_ - *tracked_eye_in_wall) : shown_in_wall_;
+  }
+  shown_in_wall_ = tracked_eye_in_wall ? follow(*tracked_eye_in_wall, now) : hold_or_return(now);
+  return shown_in_wall_;
+}
+
+// The offset at the start melts; the time it takes grows with it, so that a short gap in the
+// tracking costs milliseconds and a long way is not leapt.
+Vec3 EyeEase::follow(const Vec3& tracked_eye_in_wall, Time now) {
+  const double within_s = 1.5 * start_.norm() / options_.catch_up_m_s;
+  const double passed_s = seconds(now - since_);
+  if (passed_s >= within_s) return tracked_eye_in_wall;
+  return tracked_eye_in_wall + (1 - smooth_step(passed_s / within_s)) * start_;
+}
+
+Vec3 EyeEase::hold_or_return(Time now) {
+  const Duration returning = now - since_ - options_.held_for;
+  const double u = seconds(returning) / seconds(options_.to_default_within);
+  return start_ + smooth_step(u) * (default_eye_in_wall_ - start_);
+}
+
+}  // namespace vindu

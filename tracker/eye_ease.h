@@ -1,0 +1,42 @@
+// The eye that the wall shows when tracking comes and goes: held where it was, after two seconds
+// led to the default viewpoint, and led back to the tracked eye without a jump.
+#pragma once
+
+#include <optional>
+
+#include "core/clock.h"
+#include "core/rigid3.h"
+
+namespace vindu {
+
+struct EyeEaseOptions {
+  Duration held_for = std::chrono::seconds(2);
+  Duration to_default_within = std::chrono::milliseconds(1500);
+  double catch_up_m_s = 1.5;  ///< how fast the shown eye closes on a tracked one, beside its motion
+};
+
+/// Bound to one thread. Starts at the default eye.
+class EyeEase {
+ public:
+  explicit EyeEase(const Vec3& default_eye_in_wall, const EyeEaseOptions& options = {});
+
+  /// The eye to show at `now`, in wall; `tracked_eye_in_wall` is empty while tracking is lost.
+  /// Times must not go back.
+  Vec3 update(const std::optional<Vec3>& tracked_eye_in_wall, Time now);
+
+ private:
+  enum class Phase { lost, tracked };
+
+  Vec3 follow(const Vec3& tracked_eye_in_wall, Time now);
+  Vec3 hold_or_return(Time now);
+
+  EyeEaseOptions options_;
+  Vec3 default_eye_in_wall_;
+  Vec3 shown_in_wall_;
+  Phase phase_ = Phase::lost;
+  Time since_{};  // when the phase began
+  Vec3 start_;    // lost: the eye that is held; tracked: shown minus tracked at its start
+  bool started_ = false;
+};
+
+}  // namespace vindu

@@ -1,0 +1,40 @@
+// The seam between the driver and a HID device, shaped after hidapi's hid_read_timeout and
+// hid_write: report bytes and arrival times cross it, nothing else. Real devices and emulated ones
+// stand behind it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/clock.h"
+
+namespace vindu {
+
+enum class HidStatus {
+  report,   ///< one input report was read
+  nothing,  ///< none has arrived in time
+  gone,     ///< the device is disconnected: hidapi's -1
+};
+
+struct HidRead {
+  HidStatus status = HidStatus::nothing;
+  std::size_t size = 0;  ///< bytes put into the buffer
+  Time arrival{};        ///< when the report reached this machine
+};
+
+/// Bound to one thread, its reader's.
+class HidDevice {
+ public:
+  virtual ~HidDevice() = default;
+
+  /// The oldest input report that arrives no later than `until`; waits for it if need be, so `until
+  /// = now` only drains what is there. buffer[0] becomes the report id, as with hidapi; what does
+  /// not fit is cut off.
+  virtual HidRead read(std::span<std::uint8_t> buffer, Time until) = 0;
+
+  /// Sends one output report, id first. False when the device refuses it or is gone.
+  virtual bool write(std::span<const std::uint8_t> report) = 0;
+};
+
+}  // namespace vindu
