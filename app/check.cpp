@@ -41,6 +41,9 @@ void print_wall(const Site& site) {
                camera.intrinsics.fx_px);
 }
 
+/// Drawing units a metre; programs that set small letters badly get large ones.
+constexpr double kUnits = 200;
+
 /// An SVG drawing of two plans, in metres; y grows downwards.
 class Drawing {
  public:
@@ -49,32 +52,34 @@ class Drawing {
     include(to);
     body_ += fmt::format(
         "<line x1='{:.4f}' y1='{:.4f}' x2='{:.4f}' y2='{:.4f}' stroke='{}' stroke-width='{}'/>\n",
-        from.x(), from.y(), to.x(), to.y(), colour, width_m);
+        kUnits * from.x(), kUnits * from.y(), kUnits * to.x(), kUnits * to.y(), colour,
+        kUnits * width_m);
   }
   void area(const std::vector<Vec2>& points, const char* fill, const char* stroke) {
     std::string list;
     for (const Vec2& point : points) {
       include(point);
-      list += fmt::format("{:.4f},{:.4f} ", point.x(), point.y());
+      list += fmt::format("{:.2f},{:.2f} ", kUnits * point.x(), kUnits * point.y());
     }
-    body_ += fmt::format("<polygon points='{}' fill='{}' stroke='{}' stroke-width='0.012'/>\n",
-                         list, fill, stroke);
+    body_ += fmt::format("<polygon points='{}' fill='{}' stroke='{}' stroke-width='2.4'/>\n", list,
+                         fill, stroke);
   }
   void text(const Vec2& at, const std::string& words, double height_m,
             const char* anchor = "middle") {
     body_ += fmt::format(
         "<text x='{:.4f}' y='{:.4f}' font-size='{:.3f}' text-anchor='{}' fill='#333'>{}</text>\n",
-        at.x(), at.y(), height_m, anchor, words);
+        kUnits * at.x(), kUnits * at.y(), kUnits * height_m, anchor, words);
   }
   void dot(const Vec2& at, double radius_m, const char* colour) {
     include(at);
-    body_ += fmt::format("<circle cx='{:.4f}' cy='{:.4f}' r='{}' fill='{}'/>\n", at.x(), at.y(),
-                         radius_m, colour);
+    body_ += fmt::format("<circle cx='{:.4f}' cy='{:.4f}' r='{}' fill='{}'/>\n", kUnits * at.x(),
+                         kUnits * at.y(), kUnits * radius_m, colour);
   }
   const Vec2& least() const { return least_; }
   const Vec2& largest() const { return largest_; }
   std::string svg() const {
-    const Vec2 low = least_ - Vec2(0.4, 0.5), size = largest_ - least_ + Vec2(0.8, 0.9);
+    const Vec2 low = kUnits * (least_ - Vec2(0.4, 0.5));
+    const Vec2 size = kUnits * (largest_ - least_ + Vec2(0.8, 0.9));
     return fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' width='1200' height='{:.0f}' viewBox='{:.3f} "
         "{:.3f} {:.3f} {:.3f}' "
@@ -111,7 +116,7 @@ void draw_front(Drawing& drawing, const Wall& wall) {
                0.14, "start");
 }
 
-/// A camera's horizontal field of view, 3 m deep.
+/// A camera's horizontal field of view, 4.5 m deep.
 void draw_camera(Drawing& drawing, const CameraConfig& camera, double down_m) {
   const auto plan = [&](const Vec3& x_in_room) {
     return Vec2(x_in_room.x(), x_in_room.z() + down_m);
@@ -121,7 +126,7 @@ void draw_camera(Drawing& drawing, const CameraConfig& camera, double down_m) {
   for (const double edge_px : {0.0, 1024.0}) {
     const Vec3 ray =
         camera.room_from_camera.rotation * Vec3((edge_px - lens.cx_px) / lens.fx_px, 0, 1);
-    drawing.line(plan(place), plan(place + 3 * ray), "#d08a2e", 0.01);
+    drawing.line(plan(place), plan(place + 4.5 * ray), "#d08a2e", 0.01);
   }
   drawing.dot(plan(place), 0.05, "#d08a2e");
   drawing.text(plan(place) + Vec2(0, 0.2), camera.name, 0.12);
