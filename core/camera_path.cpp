@@ -43,10 +43,10 @@ CameraPath read_camera_path(const std::string& file) {
   for (internal::TomlTable& table : root.tables("key")) {
     table.require("t_s", "1.5");
     table.require("eye_m", "[0, 0.1, 2]");
-    const double t_s = table.number("t_s", {0, 1e6}).value_or(0);
-    if (keys.empty() ? t_s != 0 : t_s <= keys.back().t_s)
-      table.fail("t_s", "the first key is at 0 and every other one later than the one before it");
-    keys.push_back({t_s, table.vec3("eye_m").value_or(Vec3::Zero())});
+    const std::optional<double> t_s = table.number("t_s", {0, 1e6});
+    if (t_s && (keys.empty() ? *t_s != 0 : *t_s <= keys.back().t_s))
+      table.fail("t_s", "is out of order; the first key is at 0, every other one after the last");
+    keys.push_back({t_s.value_or(0), table.vec3("eye_m").value_or(Vec3::Zero())});
     table.finish();
   }
   if (keys.size() < 2)

@@ -12,8 +12,9 @@ using Duration = std::chrono::nanoseconds;
 
 inline double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 inline double milliseconds(Duration duration) { return 1e3 * seconds(duration); }
+/// To the nearest nanosecond.
 inline Duration from_seconds(double value_s) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(value_s));
+  return std::chrono::round<Duration>(std::chrono::duration<double>(value_s));
 }
 
 /// Thread-safe, except ManualClock, which is bound to one thread.

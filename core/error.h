@@ -25,8 +25,8 @@ class Error : public std::runtime_error {
   explicit Error(std::string lines) : std::runtime_error(std::move(lines)) {}
 };
 
-/// The candidate that `word` was probably meant to be, or empty when none is near (edit distance
-/// over a third).
+/// The candidate that `word` was probably meant to be, or empty when none is near: at most two
+/// edits or a third of the word, but never all of its letters.
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace vindu

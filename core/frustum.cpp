@@ -1,9 +1,16 @@
 #include "core/frustum.h"
 
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
 
 namespace vindu {
+namespace {
+
+/// False also for an eye that is no number or infinitely far away.
+bool is_in_front(double distance_m) { return distance_m > kNear_m && std::isfinite(distance_m); }
+
+}  // namespace
 
 double distance_to_tile(const TileCorners& corners, const Vec3& eye_in_wall) {
   return corners.normal_in_wall().dot(eye_in_wall - corners.lower_left_in_wall);
@@ -12,7 +19,7 @@ double distance_to_tile(const TileCorners& corners, const Vec3& eye_in_wall) {
 std::optional<FrustumExtents> frustum_extents(const TileCorners& corners, const Vec3& eye_in_wall,
                                               double near_m) {
   const double distance_m = distance_to_tile(corners, eye_in_wall);
-  if (distance_m <= kNear_m) return std::nullopt;
+  if (!is_in_front(distance_m)) return std::nullopt;
   const Vec3 right = (corners.lower_right_in_wall - corners.lower_left_in_wall).normalized();
   const Vec3 up = corners.normal_in_wall().cross(right);
   const double scale = near_m / distance_m;
@@ -25,7 +32,7 @@ std::optional<FrustumExtents> frustum_extents(const TileCorners& corners, const 
 std::optional<Mat4> clip_from_wall(const TileCorners& corners, const Vec3& eye_in_wall,
                                    double near_m) {
   const double distance_m = distance_to_tile(corners, eye_in_wall);
-  if (distance_m <= kNear_m) return std::nullopt;
+  if (!is_in_front(distance_m)) return std::nullopt;
   Mat3 edges;
   edges << corners.lower_right_in_wall - corners.lower_left_in_wall,
       corners.upper_left_in_wall - corners.lower_left_in_wall,

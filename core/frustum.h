@@ -22,7 +22,8 @@ struct FrustumExtents {
 /// Distance from the eye to the tile's plane, positive in front of it; metres.
 double distance_to_tile(const TileCorners& corners, const Vec3& eye_in_wall);
 
-/// Kooima's l, r, b, t. Empty when the eye is at or behind the tile's plane (nearer than kNear_m).
+/// Kooima's l, r, b, t. Empty when the eye is at or behind the tile's plane (nearer than kNear_m),
+/// or is no number.
 std::optional<FrustumExtents> frustum_extents(const TileCorners& corners, const Vec3& eye_in_wall,
                                               double near_m);
 
@@ -30,7 +31,7 @@ std::optional<FrustumExtents> frustum_extents(const TileCorners& corners, const 
 /// along the normal). Exact for any three corners, also where measured ones are not quite at right
 /// angles; equals Kooima's matrix where they are. With A = [right edge, up edge, lower left - eye]
 /// and (a, b, g) = A^-1 (x - eye), the ray through x meets the tile at fractions (a/g, b/g) of its
-/// edges, and g is 1 on the tile's plane. Empty when the eye is at or behind the tile's plane.
+/// edges, and g is 1 on the tile's plane. Empty as frustum_extents is.
 std::optional<Mat4> clip_from_wall(const TileCorners& corners, const Vec3& eye_in_wall,
                                    double near_m = kNear_m);
 

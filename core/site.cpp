@@ -19,7 +19,9 @@ constexpr Range kRotationsRange{0, 270};
 TileMount read_mount(TomlTable& table, TileMount mount) {
   mount.mirror = table.boolean("mirror").value_or(mount.mirror);
   mount.rotate_deg = table.integer("rotate_deg", kRotationsRange).value_or(mount.rotate_deg);
-  if (mount.rotate_deg % 90 != 0) table.fail("rotate_deg", "0, 90, 180 or 270 is allowed");
+  if (mount.rotate_deg % 90 != 0)
+    table.fail("rotate_deg",
+               "is " + std::to_string(mount.rotate_deg) + "; 0, 90, 180 or 270 is allowed");
   return mount;
 }
 
@@ -37,6 +39,8 @@ WallGrid read_grid(TomlTable& table) {
   grid.bezel_x_mm = table.number("bezel_x_mm", {0, 1000}).value_or(0);
   grid.bezel_y_mm = table.number("bezel_y_mm", {0, 1000}).value_or(0);
   grid.curve_deg = table.number("curve_deg", {0, 180}).value_or(0);
+  if (grid.curve_deg > 90 * (grid.columns - 1) && grid.columns > 1)
+    table.fail("curve_deg", "turns neighbouring columns by more than 90 degrees; bend it less");
   grid.hosts = table.text("hosts").value_or(grid.hosts);
   grid.mount = read_mount(table, {});
   if (1e-3 * grid.bezel_x_mm * (grid.columns - 1) >= grid.width_m)
@@ -82,7 +86,8 @@ std::vector<TileOverride> read_overrides(TomlTable& root, const WallGrid& grid) 
     table.require("name", "\"tile-0-0\"");
     TileOverride change;
     change.name = table.one_of("name", names).value_or("");
-    if (std::ranges::find(overrides, change.name, &TileOverride::name) != overrides.end())
+    if (!change.name.empty() &&
+        std::ranges::find(overrides, change.name, &TileOverride::name) != overrides.end())
       table.fail("name",
                  "\"" + change.name + "\" is described twice; put its fields into one [[tile]]");
     change.host = table.text("host");
@@ -119,7 +124,7 @@ void read_viewer(TomlTable& root, ViewerConfig& viewer) {
 void read_head(TomlTable& root, HeadConfig& head) {
   auto table = root.table("head");
   if (!table) return;
-  head.leds_in_head = table->vec3s("leds_m", 1, 16).value_or(head.leds_in_head);
+  head.leds_in_head = table->vec3s("leds_m", 1, 16, {-10, 10}).value_or(head.leds_in_head);
   head.eye_in_head = table->vec3("eye_m", {-1, 1}).value_or(head.eye_in_head);
   table->finish();
 }
@@ -185,7 +190,8 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
     table.require("source", "\"emulated\"");
     CameraConfig camera;
     camera.name = table.text("name").value_or("");
-    if (std::ranges::find(cameras, camera.name, &CameraConfig::name) != cameras.end())
+    if (!camera.name.empty() &&
+        std::ranges::find(cameras, camera.name, &CameraConfig::name) != cameras.end())
       table.fail("name", "\"" + camera.name + "\" stands twice; give every camera its own name");
     camera.source =
         source_from(table.one_of("source", {"emulated", "wiimote", "video"}).value_or("emulated"));
@@ -233,7 +239,8 @@ std::optional<Placement> placement_from(std::string_view name) {
 Rigid3 look_at(const Vec3& position_in_room, const Vec3& target_in_room) {
   const Vec3 forward = (target_in_room - position_in_room).normalized();
   const bool vertical = std::abs(forward.y()) > 1 - 1e-9;
-  const Vec3 right = forward.cross(vertical ? Vec3::UnitZ() : Vec3::UnitY()).normalized();
+  const Vec3 up = vertical ? Vec3(0, 0, std::copysign(1.0, forward.y())) : Vec3(0, 1, 0);
+  const Vec3 right = forward.cross(up).normalized();
   Mat3 rotation;
   rotation << right, forward.cross(right), forward;
   return Rigid3::from(rotation, position_in_room);

@@ -72,7 +72,8 @@ std::string name_of(CameraSource source);
 
 std::optional<Placement> placement_from(std::string_view name);
 
-/// Camera that stands at `position_in_room` and looks at a point, its image upright.
+/// Camera that stands at `position_in_room` and looks at a point, its image upright; straight up or
+/// down, as somebody sees it who faces the wall.
 Rigid3 look_at(const Vec3& position_in_room, const Vec3& target_in_room);
 
 /// Camera with the thesis' angles, its position already in room.

@@ -14,9 +14,9 @@ namespace vindu {
 /// The three corners that fix a tile's picture: pixel columns run from lower left to lower right,
 /// rows from upper left down to lower left.
 struct TileCorners {
-  Vec3 lower_left_in_wall;
-  Vec3 lower_right_in_wall;
-  Vec3 upper_left_in_wall;
+  Vec3 lower_left_in_wall = Vec3::Zero();
+  Vec3 lower_right_in_wall = Vec3::Zero();
+  Vec3 upper_left_in_wall = Vec3::Zero();
 
   Vec3 upper_right_in_wall() const {
     return lower_right_in_wall + upper_left_in_wall - lower_left_in_wall;

@@ -12,6 +12,7 @@ namespace {
 
 std::string show(double value) {
   std::ostringstream out;
+  out.precision(10);
   out << value;
   return out.str();
 }
@@ -21,10 +22,23 @@ std::string show(const Range& range) {
   return "from " + show(range.low) + " to " + show(range.high);
 }
 
-std::string kind_of(const toml::node& node) {
-  std::ostringstream out;
-  out << node.type();
-  return out.str();
+/// As it would stand in a file, on one line and cut where it is long.
+std::string show(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  std::string text;
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& item : *array) text += (text.empty() ? "" : ", ") + show(item);
+    text = "[" + text + "]";
+  } else if (const auto* number = node.as_floating_point()) {
+    text = show(number->get());
+  } else {
+    std::ostringstream out;
+    out << toml::toml_formatter(node, toml::format_flags::none);
+    text = out.str();
+    std::ranges::replace(text, '\n', ' ');
+  }
+  constexpr std::size_t kLongest = 60;
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -55,7 +69,7 @@ void Problems::throw_if_any() const {
 }
 
 const toml::node* TomlTable::find(const std::string& name) {
-  known_.push_back(name);
+  if (std::ranges::find(known_, name) == known_.end()) known_.push_back(name);
   return table_.get(name);
 }
 
@@ -67,7 +81,7 @@ std::optional<double> TomlTable::number(const std::string& name, Range range) {
   const std::optional<double> value = node->value<double>();
   if (!node->is_number() || !value)
     problems_.add(*node, field(name),
-                  "is a " + kind_of(*node) + "; a number " + show(range) + " is allowed");
+                  "is " + show(*node) + "; a number " + show(range) + " is allowed");
   else if (!within(*value, range))
     problems_.add(*node, field(name), "is " + show(*value) + "; " + show(range) + " is allowed");
   else
@@ -87,7 +101,7 @@ std::optional<bool> TomlTable::boolean(const std::string& name) {
   const toml::node* node = find(name);
   if (!node) return std::nullopt;
   if (const auto* value = node->as_boolean()) return value->get();
-  problems_.add(*node, field(name), "is a " + kind_of(*node) + "; true or false is allowed");
+  problems_.add(*node, field(name), "is " + show(*node) + "; true or false is allowed");
   return std::nullopt;
 }
 
@@ -95,7 +109,8 @@ std::optional<std::string> TomlTable::text(const std::string& name) {
   const toml::node* node = find(name);
   if (!node) return std::nullopt;
   if (const auto* value = node->as_string(); value && !value->get().empty()) return value->get();
-  problems_.add(*node, field(name), "is not a text; a text in quotes, not empty, is allowed");
+  problems_.add(*node, field(name),
+                "is " + show(*node) + "; a text in quotes, not empty, is allowed");
   return std::nullopt;
 }
 
@@ -122,7 +137,8 @@ std::optional<std::vector<double>> TomlTable::numbers(const std::string& name, s
   const toml::array* array = node->as_array();
   if (array && array->size() == count && values.size() == count) return values;
   problems_.add(*node, field(name),
-                std::to_string(count) + " numbers " + show(range) + " in brackets are allowed");
+                "is " + show(*node) + "; " + std::to_string(count) + " numbers " + show(range) +
+                    " in brackets are allowed");
   return std::nullopt;
 }
 
@@ -133,7 +149,7 @@ std::optional<Vec3> TomlTable::vec3(const std::string& name, Range range) {
 }
 
 std::optional<std::vector<Vec3>> TomlTable::vec3s(const std::string& name, std::size_t least,
-                                                  std::size_t most) {
+                                                  std::size_t most, Range range) {
   const toml::node* node = find(name);
   if (!node) return std::nullopt;
   std::vector<Vec3> points;
@@ -146,13 +162,14 @@ std::optional<std::vector<Vec3>> TomlTable::vec3s(const std::string& name, std::
       return item.is_number() ? item.value_or(std::nan("")) : std::nan("");
     };
     const Vec3 value(part(0), part(1), part(2));
-    if (value.allFinite()) points.push_back(value);
+    if (std::ranges::all_of(value, [&](double x) { return within(x, range); }))
+      points.push_back(value);
   }
   if (array && points.size() == array->size() && points.size() >= least && points.size() <= most)
     return points;
   problems_.add(*node, field(name),
-                std::to_string(least) + " to " + std::to_string(most) +
-                    " points [x, y, z] in brackets are allowed");
+                "is " + show(*node) + "; " + std::to_string(least) + " to " + std::to_string(most) +
+                    " points [x, y, z], each number " + show(range) + ", in brackets are allowed");
   return std::nullopt;
 }
 
@@ -161,7 +178,7 @@ std::optional<TomlTable> TomlTable::table(const std::string& name) {
   if (!node) return std::nullopt;
   if (const toml::table* found = node->as_table()) return TomlTable(*found, field(name), problems_);
   problems_.add(*node, field(name),
-                "is a " + kind_of(*node) + "; a table [" + field(name) + "] is allowed");
+                "is " + show(*node) + "; a table [" + field(name) + "] is allowed");
   return std::nullopt;
 }
 
@@ -172,7 +189,7 @@ std::vector<TomlTable> TomlTable::tables(const std::string& name) {
   const toml::array* array = node->as_array();
   if (!array || !array->is_homogeneous(toml::node_type::table)) {
     problems_.add(*node, field(name),
-                  "is a " + kind_of(*node) + "; tables [[" + field(name) + "]] are allowed");
+                  "is " + show(*node) + "; tables [[" + field(name) + "]] are allowed");
     return found;
   }
   for (std::size_t i = 0; i < array->size(); ++i)
@@ -208,9 +225,10 @@ toml::table parse_toml_file(const std::string& file) {
   try {
     return toml::parse_file(file);
   } catch (const toml::parse_error& wrong) {
-    const auto line = std::to_string(wrong.source().begin.line);
-    throw Error({std::string("is not valid TOML: ") + std::string(wrong.description()),
-                 file + ":" + line, "correct that line"});
+    const auto line = wrong.source().begin.line;
+    if (line == 0) throw Error({std::string(wrong.description()), file, "make the file readable"});
+    throw Error({"is not valid TOML: " + std::string(wrong.description()),
+                 file + ":" + std::to_string(line), "correct that line"});
   }
 }
 

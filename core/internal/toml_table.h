@@ -51,7 +51,7 @@ class TomlTable {
                                              Range range);
   std::optional<Vec3> vec3(const std::string& name, Range range = {-1000, 1000});
   std::optional<std::vector<Vec3>> vec3s(const std::string& name, std::size_t least,
-                                         std::size_t most);
+                                         std::size_t most, Range range);
   std::optional<TomlTable> table(const std::string& name);
   std::vector<TomlTable> tables(const std::string& name);
 
