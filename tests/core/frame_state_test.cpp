@@ -1,0 +1,62 @@
+// The hash of a frame's state: equal for equal states, different when any field is.
+#include "core/frame_state.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace vindu {
+namespace {
+
+FrameState some_state() {
+  FrameState state;
+  state.number = 17;
+  state.photon_time = Time{} + std::chrono::milliseconds(283);
+  state.navigation.wall_from_scene = {Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY())), {1, 2, 3}};
+  return state;
+}
+
+TEST(FrameHash, IsEqualForEqualStates) { EXPECT_EQ(hash_of(some_state()), hash_of(some_state())); }
+
+TEST(FrameHash, ChangesWithEveryField) {
+  const std::vector<std::function<void(FrameState&)>> changes = {
+      [](FrameState& state) { state.number += 1; },
+      [](FrameState& state) { state.photon_time += std::chrono::nanoseconds(1); },
+      [](FrameState& state) { state.eye_in_wall.x() += 1e-9; },
+      [](FrameState& state) { state.eye_in_wall.y() += 1e-9; },
+      [](FrameState& state) { state.eye_in_wall.z() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.rotation.x() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.rotation.y() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.rotation.z() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.rotation.w() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.translation.x() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.translation.y() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.translation.z() += 1e-9; },
+      [](FrameState& state) { state.navigation.scale += 1e-9; },
+      [](FrameState& state) { state.animation_time_s += 1e-9; },
+      [](FrameState& state) { state.mode = Mode::loop; }};
+  std::set<std::uint64_t> hashes = {hash_of(some_state())};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    FrameState changed = some_state();
+    changes[i](changed);
+    EXPECT_TRUE(hashes.insert(hash_of(changed)).second) << "change " << i;
+  }
+}
+
+TEST(FrameHash, TellsExchangedCoordinatesApart) {
+  FrameState one = some_state(), other = some_state();
+  one.eye_in_wall = {1, 2, 3};
+  other.eye_in_wall = {2, 1, 3};
+  EXPECT_NE(hash_of(one), hash_of(other));
+}
+
+TEST(Mode, HasTheThesisNames) {
+  EXPECT_EQ(name_of(Mode::loop), "loop");
+  EXPECT_EQ(name_of(Mode::touch), "touch");
+  EXPECT_EQ(name_of(Mode::track), "track");
+}
+
+}  // namespace
+}  // namespace vindu

@@ -1,0 +1,127 @@
+// wall.toml: what a good file means.
+#include "core/site.h"
+
+#include "tests/core/files.h"
+#include "tests/core/matchers.h"
+
+namespace vindu {
+namespace {
+
+using testing::IsNearPoint;
+using testing::IsNearRigid;
+using testing::TextFile;
+
+const std::string kGrid =
+    "[wall]\ncolumns = 2\nrows = 1\nwidth_m = 2\nheight_m = 1\n"
+    "tile_width_px = 100\ntile_height_px = 50\n";
+
+Site site_of(const std::string& text) { return read_site(TextFile(text).path()); }
+
+TEST(Site, OfTheThesisIsReadFromItsFile) {
+  const Site site = read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
+  EXPECT_EQ(site.wall.tiles.size(), 28u);
+  EXPECT_EQ(site.wall.find("tile-6-3")->host, "tile-6-3");
+  EXPECT_DOUBLE_EQ(site.wall.grid.width_m, 5.185);
+  ASSERT_EQ(site.cameras.size(), 2u);
+  EXPECT_EQ(site.cameras[1].name, "right");
+  EXPECT_EQ(site.cameras[1].source, CameraSource::emulated);
+  EXPECT_THAT(site.cameras[1].room_from_camera, IsNearRigid(look_at({1, 2.3, 5}, {0, 1.65, 2}), 0));
+  EXPECT_THAT(site.head.eye_in_head, IsNearPoint(Vec3(0, -0.10, -0.19), 0));
+}
+
+TEST(Site, OfAWallAloneHasTheDefaults) {
+  const Site site = site_of(kGrid);
+  EXPECT_EQ(site.wall.tiles.size(), 2u);
+  EXPECT_EQ(site.wall.tiles[1].host, "tile-1-0");
+  EXPECT_THAT(site.wall.room_from_wall, IsNearRigid(room_from_wall_at(1.55, 0), 0));
+  EXPECT_DOUBLE_EQ(site.rate_hz, 60);
+  EXPECT_THAT(site.viewer.default_eye_in_wall, IsNearPoint(Vec3(0, 0.10, 2.0), 0));
+  EXPECT_EQ(site.head.leds_in_head.size(), 3u);
+  EXPECT_TRUE(site.cameras.empty());
+  EXPECT_TRUE(site.scene.model.empty());
+  EXPECT_EQ(site.scene.place, Placement::fit);
+}
+
+TEST(Site, TakesEveryFieldOfTheWall) {
+  const Site site = site_of(kGrid +
+                            "bezel_x_mm = 8\nbezel_y_mm = 9\ncurve_deg = 20\nhosts = \"pc{x}\"\n"
+                            "mirror = true\nrotate_deg = 270\nrate_hz = 120\n"
+                            "centre_height_m = 1.2\ntilt_deg = -5\n");
+  EXPECT_DOUBLE_EQ(site.wall.grid.bezel_x_mm, 8);
+  EXPECT_DOUBLE_EQ(site.wall.grid.bezel_y_mm, 9);
+  EXPECT_DOUBLE_EQ(site.wall.grid.curve_deg, 20);
+  EXPECT_EQ(site.wall.tiles[1].host, "pc1");
+  EXPECT_EQ(site.wall.tiles[1].mount, (TileMount{.mirror = true, .rotate_deg = 270}));
+  EXPECT_DOUBLE_EQ(site.rate_hz, 120);
+  EXPECT_THAT(site.wall.room_from_wall, IsNearRigid(room_from_wall_at(1.2, -5), 0));
+}
+
+TEST(Site, TakesExceptionsForSingleTiles) {
+  const Site site = site_of(kGrid +
+                            "mirror = true\n[[tile]]\nname = \"tile-1-0\"\nhost = \"spare\"\n"
+                            "rotate_deg = 90\nlower_left_m = [0, -0.5, 0.1]\n"
+                            "lower_right_m = [1, -0.5, 0.2]\nupper_left_m = [0, 0.5, 0.1]\n");
+  const Tile& tile = *site.wall.find("tile-1-0");
+  EXPECT_EQ(tile.host, "spare");
+  EXPECT_EQ(tile.mount, (TileMount{.mirror = true, .rotate_deg = 90}));
+  EXPECT_THAT(tile.corners.lower_right_in_wall, IsNearPoint(Vec3(1, -0.5, 0.2), 0));
+  EXPECT_EQ(site.wall.find("tile-0-0")->host, "tile-0-0");
+}
+
+TEST(Site, TakesViewerHeadAndScene) {
+  const Site site = site_of(kGrid +
+                            "[viewer]\ndefault_eye_m = [0.1, 0.2, 3]\ndisplay_latency_ms = 25\n"
+                            "[head]\nleds_m = [[0, 0, 0]]\neye_m = [0, -0.1, -0.2]\n"
+                            "[scene]\nmodel = \"models/a.glb\"\nplace = \"life-size\"\n");
+  EXPECT_THAT(site.viewer.default_eye_in_wall, IsNearPoint(Vec3(0.1, 0.2, 3), 0));
+  EXPECT_DOUBLE_EQ(site.viewer.display_latency_ms, 25);
+  ASSERT_EQ(site.head.leds_in_head.size(), 1u);
+  EXPECT_THAT(site.head.eye_in_head, IsNearPoint(Vec3(0, -0.1, -0.2), 0));
+  EXPECT_EQ(site.scene.place, Placement::life_size);
+}
+
+TEST(Site, FindsTheModelBesideItsFile) {
+  const TextFile file(kGrid + "[scene]\nmodel = \"models/a.glb\"\n");
+  const std::filesystem::path expected =
+      std::filesystem::path(file.path()).parent_path() / "models/a.glb";
+  EXPECT_EQ(read_site(file.path()).scene.model, expected.string());
+  EXPECT_EQ(site_of(kGrid + "[scene]\nmodel = \"/models/a.glb\"\n").scene.model, "/models/a.glb");
+}
+
+TEST(Site, TakesEveryFieldOfACamera) {
+  const Site site = site_of(kGrid +
+                            "[[camera]]\nname = \"ceiling\"\nsource = \"video\"\n"
+                            "address = \"/dev/video2\"\nposition_m = [0, 3, 2]\n"
+                            "heading_deg = -37\npitch_deg = 60\nroll_deg = 5\nfocal_px = 800\n"
+                            "focal_aspect = 1.1\ncentre_px = [320, 240]\n"
+                            "distortion = [0.1, -0.2, 0.01, 0.02, 0.3]\n");
+  ASSERT_EQ(site.cameras.size(), 1u);
+  const CameraConfig& camera = site.cameras[0];
+  EXPECT_EQ(name_of(camera.source), "video");
+  EXPECT_EQ(camera.address, "/dev/video2");
+  EXPECT_THAT(
+      camera.room_from_camera,
+      IsNearRigid(camera_from_thesis_angles({0, 3, 2}, radians(-37), radians(60), radians(5)), 0));
+  EXPECT_DOUBLE_EQ(camera.intrinsics.fx_px, 800);
+  EXPECT_DOUBLE_EQ(camera.intrinsics.fy_px, 880);
+  EXPECT_DOUBLE_EQ(camera.intrinsics.cx_px, 320);
+  EXPECT_EQ(camera.intrinsics.distortion, (std::array{0.1, -0.2, 0.01, 0.02, 0.3}));
+}
+
+TEST(Site, TakesACameraWithOneAngleOnlyAsHorizontal) {
+  const Site site = site_of(kGrid +
+                            "[[camera]]\nname = \"a\"\nsource = \"wiimote\"\n"
+                            "position_m = [0, 1, 4]\nheading_deg = 0\n");
+  EXPECT_THAT(site.cameras[0].room_from_camera.rotation * Vec3::UnitZ(),
+              IsNearPoint(Vec3(0, 0, -1), 1e-12));
+}
+
+TEST(Placement, IsKnownByItsName) {
+  EXPECT_EQ(placement_from("fit"), Placement::fit);
+  EXPECT_EQ(placement_from("life-size"), Placement::life_size);
+  EXPECT_EQ(placement_from("as-is"), Placement::as_is);
+  EXPECT_EQ(placement_from("life_size"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace vindu
