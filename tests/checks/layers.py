@@ -32,7 +32,8 @@ LIBRARIES = {
     "libpng": (r"png\.h", r"renderer/.*"),
     "stb": (r"stb(/|_)", r"renderer/.*"),
     "toml++": (r"toml\+\+/|toml\.hpp", r"core/[^/]*\.cpp|core/internal/.*"),
-    "spdlog": (r"spdlog/|fmt/", r"core/[^/]*\.cpp|core/internal/.*"),
+    "spdlog": (r"spdlog/", r"core/[^/]*\.cpp|core/internal/.*"),
+    "fmt": (r"fmt/", r".*\.cpp"),
     "CLI11": (r"CLI/", r"app/.*"),
 }
 
