@@ -1,0 +1,139 @@
+// What the tracker costs: parsing one report, and one poll of the thesis' method (two reports in,
+// pose out) beside OpenCV's own calls for the same dots, undistortPoints and triangulatePoints. The
+// ratio to OpenCV is a counter of the same run, in which both take turns; what both found is
+// compared and shown.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <opencv2/calib3d.hpp>
+
+#include "simulator/emulated_room.h"
+#include "tracker/tracker.h"
+#include "tracker/wiimote/emulator.h"
+#include "tracker/wiimote/report.h"
+
+namespace vindu {
+namespace {
+
+using Stopwatch = std::chrono::steady_clock;
+
+/// Two cameras of the thesis' wall, one head between them, and the reports of both.
+struct Scene {
+  Site site = read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
+  Rigid3 room_from_head{Quat::Identity(), {0.1, 1.75, 2.1}};
+  std::array<Observation, 2> seen;
+  std::array<std::array<std::uint8_t, 18>, 2> reports;
+
+  explicit Scene(bool distorted) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      CameraConfig& camera = site.cameras[i];
+      if (distorted) camera.intrinsics.distortion = {0.03, -0.02, 0.001, 0.001, 0};
+      EmulatedSensor sensor(camera, site.head, 0.3, i);
+      reports[i] = encode_report_0x33(sensor.look(room_from_head));
+      seen[i] = {static_cast<int>(i), Time{}, parse_report(reports[i]).report->dots};
+    }
+  }
+};
+
+/// The same by OpenCV: dots sorted, undistorted, triangulated by its linear least squares.
+class OpenCvReference {
+ public:
+  explicit OpenCvReference(const Scene& scene) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const CameraConfig& camera = scene.site.cameras[i];
+      const Intrinsics& k = camera.intrinsics;
+      matrix_[i] = {k.fx_px, 0, k.cx_px, 0, k.fy_px, k.cy_px, 0, 0, 1};
+      for (int j = 0; j < 5; ++j) distortion_[i](j) = k.distortion[static_cast<std::size_t>(j)];
+      const Mat4 camera_from_room = matrix_of(inverse(camera.room_from_camera));
+      for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+          projection_[i](row, column) = camera_from_room(row, column);
+    }
+  }
+
+  std::array<Vec3, 3> triangulate(const std::array<Observation, 2>& seen) const {
+    std::array<cv::Mat, 2> straight;
+    for (std::size_t i = 0; i < 2; ++i) {
+      DotList dots = seen[i].dots;
+      std::ranges::sort(dots, {}, &Dot::x_px);
+      std::array<cv::Vec2d, 3> image;
+      for (std::size_t j = 0; j < 3; ++j)
+        image[j] = {dots[j].x_px, kWiimoteHeight_px - 1 - dots[j].y_px};
+      const cv::Mat points(3, 1, CV_64FC2, image.data());
+      cv::undistortPoints(points, straight[i], matrix_[i], distortion_[i]);
+    }
+    cv::Mat homogeneous;
+    cv::triangulatePoints(projection_[0], projection_[1], straight[0], straight[1], homogeneous);
+    std::array<Vec3, 3> found;
+    for (int j = 0; j < 3; ++j) {
+      const Vec4 x(homogeneous.at<double>(0, j), homogeneous.at<double>(1, j),
+                   homogeneous.at<double>(2, j), homogeneous.at<double>(3, j));
+      found[static_cast<std::size_t>(j)] = x.head<3>() / x.w();
+    }
+    return found;
+  }
+
+ private:
+  std::array<cv::Matx33d, 2> matrix_;
+  std::array<cv::Matx<double, 5, 1>, 2> distortion_;
+  std::array<cv::Matx34d, 2> projection_;
+};
+
+ThesisResult poll(ThesisMethod& method, const Scene& scene) {
+  for (const Observation& observation : scene.seen) method.absorb(observation);
+  return method.track(Time{});
+}
+
+void parse_one_report(benchmark::State& state) {
+  const Scene scene(false);
+  for (auto _ : state) benchmark::DoNotOptimize(parse_report(scene.reports[0]));
+}
+BENCHMARK(parse_one_report);
+
+void thesis_poll(benchmark::State& state) {
+  const Scene scene(state.range(0) == 1);
+  ThesisMethod method(scene.site.cameras, scene.site.head);
+  for (auto _ : state) benchmark::DoNotOptimize(poll(method, scene));
+}
+BENCHMARK(thesis_poll)->ArgName("distorted")->Arg(0)->Arg(1);
+
+void opencv_undistort_and_triangulate(benchmark::State& state) {
+  const Scene scene(state.range(0) == 1);
+  const OpenCvReference reference(scene);
+  for (auto _ : state) benchmark::DoNotOptimize(reference.triangulate(scene.seen));
+}
+BENCHMARK(opencv_undistort_and_triangulate)->ArgName("distorted")->Arg(0)->Arg(1);
+
+void thesis_poll_over_opencv(benchmark::State& state) {
+  const Scene scene(state.range(0) == 1);
+  ThesisMethod method(scene.site.cameras, scene.site.head);
+  const OpenCvReference reference(scene);
+  Duration ours{}, theirs{};
+  for (auto _ : state) {
+    const auto start = Stopwatch::now();
+    benchmark::DoNotOptimize(poll(method, scene));
+    const auto middle = Stopwatch::now();
+    benchmark::DoNotOptimize(reference.triangulate(scene.seen));
+    theirs += Stopwatch::now() - middle;
+    ours += middle - start;
+  }
+  const ThesisResult found = poll(method, scene);
+  const auto expected = reference.triangulate(scene.seen);
+  if (!found.pose) return state.SkipWithError("no pose");
+  double apart_m = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    apart_m = std::max(apart_m, (found.points[i].x_in_room - expected[i]).norm());
+  if (apart_m > 0.001) return state.SkipWithError("the points differ");
+  const Vec3 middle_mm = 1e3 * found.pose->room_from_head.translation;
+  std::array<char, 96> label{};
+  std::snprintf(label.data(), label.size(), "m at (%.1f, %.1f, %.1f) mm, OpenCV's %.2f mm away",
+                middle_mm.x(), middle_mm.y(), middle_mm.z(), 1e3 * apart_m);
+  state.SetLabel(label.data());
+  state.counters["ratio"] = seconds(ours) / seconds(theirs);
+}
+BENCHMARK(thesis_poll_over_opencv)->ArgName("distorted")->Arg(0)->Arg(1);
+
+}  // namespace
+}  // namespace vindu

@@ -1,0 +1,191 @@
+// The emulated Wiimote, seen from outside its seam (bytes, times) and, for the sensor, from inside.
+#include "simulator/emulated_wiimote.h"
+
+#include <gtest/gtest.h>
+
+#include "simulator/emulated_room.h"
+
+namespace vindu {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::array<std::uint8_t, 3> kStream = {0x12, 0x04, 0x33};
+constexpr std::array<std::uint8_t, 3> kButtonsOnly = {0x12, 0x00, 0x30};
+const Rigid3 kMiddle{Quat::Identity(), {0, 1.75, 2.1}};
+
+CameraConfig camera_behind() {
+  CameraConfig config;
+  config.room_from_camera = look_at({-1, 2.3, 5}, {0, 1.65, 2});
+  return config;
+}
+
+Rigid3 turned(double yaw_deg, const Vec3& place) {
+  return {Quat(Eigen::AngleAxisd(radians(yaw_deg), Vec3::UnitY())), place};
+}
+
+int dots_in(const SensorState& state) {
+  return static_cast<int>(std::ranges::count_if(state.slots, [](const auto& s) { return !!s; }));
+}
+
+TEST(EmulatedSensor, rounds_the_projection_to_whole_units) {
+  const CameraConfig config = camera_behind();
+  const HeadConfig head;
+  const CameraModel camera(config);
+  EmulatedSensor sensor(config, head, 0, 1);
+  const SensorState state = sensor.look(kMiddle);
+  ASSERT_EQ(dots_in(state), 3);
+  for (const Vec3& led : head.leds_in_head) {
+    const Vec2 exact_px = *camera.project(camera.camera_from_room() * (kMiddle * led));
+    const bool found = std::ranges::any_of(state.slots, [&](const auto& dot) {
+      return dot && std::abs(dot->x_px - exact_px.x()) <= 0.5 &&
+             std::abs(dot->y_px - exact_px.y()) <= 0.5;
+    });
+    EXPECT_TRUE(found);
+  }
+}
+
+TEST(EmulatedSensor, shows_dots_of_the_usual_size_at_the_usual_distance) {
+  EmulatedSensor sensor(camera_behind(), HeadConfig{}, 0, 1);
+  const SensorState state = sensor.look(kMiddle);
+  for (std::size_t slot = 0; slot < 3; ++slot) {
+    ASSERT_TRUE(state.slots[slot]);
+    EXPECT_GE(state.slots[slot]->size, 2);
+    EXPECT_LE(state.slots[slot]->size, 4);
+  }
+}
+
+TEST(EmulatedSensor, scatters_dots_by_the_given_sigma) {
+  EmulatedSensor sensor(camera_behind(), HeadConfig{}, 2.0, 1);
+  double sum = 0, sum2 = 0;
+  constexpr int kSamples = 4000;
+  for (int i = 0; i < kSamples; ++i) {
+    const double x_px = sensor.look(kMiddle).slots[0]->x_px;
+    sum += x_px, sum2 += x_px * x_px;
+  }
+  const double variance = sum2 / kSamples - (sum / kSamples) * (sum / kSamples);
+  EXPECT_NEAR(variance, 2.0 * 2.0 + 1.0 / 12, 0.4);  // rounding adds 1/12
+}
+
+TEST(EmulatedSensor, loses_leds_that_shine_elsewhere_or_behind_the_head) {
+  EmulatedSensor sensor(camera_behind(), HeadConfig{}, 0, 1);
+  EXPECT_EQ(dots_in(sensor.look(kMiddle)), 3);
+  EXPECT_EQ(dots_in(sensor.look(turned(60, kMiddle.translation))), 2);
+  EXPECT_EQ(dots_in(sensor.look(turned(180, kMiddle.translation))), 0);
+}
+
+TEST(EmulatedSensor, loses_leds_outside_the_picture) {
+  EmulatedSensor sensor(camera_behind(), HeadConfig{}, 0, 1);
+  EXPECT_EQ(dots_in(sensor.look({Quat::Identity(), {-1.5, 1.75, 2.1}})), 0);
+  EXPECT_EQ(dots_in(sensor.look({Quat::Identity(), {0, 0.4, 2.1}})), 0);
+}
+
+TEST(EmulatedSensor, reports_only_the_four_brightest) {
+  const CameraConfig config = camera_behind();
+  HeadConfig head;  // the first LED is the farthest from the camera, so the faintest
+  head.leds_in_head = {
+      {0.02, 0.05, -0.08}, {-0.09, 0, 0}, {0.09, 0, 0}, {0, 0.06, 0}, {0, 0, 0.02}};
+  EmulatedSensor sensor(config, head, 0, 1);
+  const SensorState state = sensor.look(kMiddle);
+  ASSERT_EQ(dots_in(state), 4);
+  const CameraModel camera(config);
+  const Vec2 faintest_px =
+      *camera.project(camera.camera_from_room() * (kMiddle * head.leds_in_head[0]));
+  for (const auto& dot : state.slots)
+    EXPECT_GT((Vec2(dot->x_px, dot->y_px) - faintest_px).norm(), 3);
+}
+
+TEST(EmulatedSensor, keeps_a_dot_in_its_slot_while_it_is_seen) {
+  EmulatedSensor sensor(camera_behind(), HeadConfig{}, 0, 1);
+  SensorState before = sensor.look(kMiddle);
+  int fewest = 3;
+  for (double yaw_deg = 0; yaw_deg < 150; yaw_deg += 1) {  // aside, and back again
+    const double there_and_back_deg = yaw_deg < 75 ? yaw_deg : 150 - yaw_deg;
+    const SensorState now = sensor.look(turned(there_and_back_deg, kMiddle.translation));
+    for (std::size_t slot = 0; slot < 4; ++slot) {
+      if (!before.slots[slot] || !now.slots[slot]) continue;
+      EXPECT_LE(std::abs(now.slots[slot]->x_px - before.slots[slot]->x_px), 3) << yaw_deg;
+    }
+    fewest = std::min(fewest, dots_in(now));
+    before = now;
+  }
+  EXPECT_LT(fewest, 3);
+  EXPECT_EQ(dots_in(before), 3);
+}
+
+TEST(EmulatedSensor, feels_gravity_as_it_hangs) {
+  CameraConfig level;
+  level.room_from_camera = look_at({0, 1.65, 5}, {0, 1.65, 0});
+  EmulatedSensor sensor(level, HeadConfig{}, 0, 1);
+  const auto raw = sensor.look(kMiddle).acceleration_raw;
+  EXPECT_EQ(raw, (std::array<int, 3>{0x200, 0x200, 0x268}));
+}
+
+class EmulatedWiimoteTest : public testing::Test {
+ protected:
+  std::unique_ptr<EmulatedWiimote> device() {
+    return std::make_unique<EmulatedWiimote>(camera_behind(), HeadConfig{}, person_, clock_,
+                                             EmulatedWiimoteOptions{});
+  }
+  HidRead read(HidDevice& device) { return device.read(buffer_, clock_.now()); }
+
+  ManualClock clock_;
+  Person person_{HeadConfig{}, room_from_wall_at(1.55, 0)};
+  std::array<std::uint8_t, 64> buffer_{};
+};
+
+TEST_F(EmulatedWiimoteTest, is_silent_until_it_is_asked_for_the_stream) {
+  const auto wiimote = device();
+  clock_.sleep_until(Time{milliseconds(500)});
+  EXPECT_EQ(read(*wiimote).status, HidStatus::nothing);
+  EXPECT_TRUE(wiimote->write(kStream));
+  EXPECT_EQ(read(*wiimote).status, HidStatus::nothing);  // nothing from before it was asked
+  clock_.sleep_until(Time{milliseconds(520)});
+  EXPECT_EQ(read(*wiimote).status, HidStatus::report);
+  EXPECT_TRUE(wiimote->write(kButtonsOnly));
+  clock_.sleep_until(Time{milliseconds(800)});
+  EXPECT_EQ(read(*wiimote).status, HidStatus::nothing);
+}
+
+TEST_F(EmulatedWiimoteTest, delivers_a_hundred_reports_a_second_each_as_old_as_the_link_is_slow) {
+  const auto wiimote = device();
+  wiimote->write(kStream);
+  clock_.sleep_until(Time{std::chrono::seconds(10)});
+  std::vector<Time> arrivals;
+  for (HidRead got = read(*wiimote); got.status == HidStatus::report; got = read(*wiimote)) {
+    EXPECT_EQ(got.size, 18u);
+    EXPECT_EQ(buffer_[0], 0x33);
+    arrivals.push_back(got.arrival);
+  }
+  EXPECT_NEAR(static_cast<double>(arrivals.size()), 1000, 2);
+  for (std::size_t i = 1; i < arrivals.size(); ++i) {
+    const double gap_ms = vindu::milliseconds(arrivals[i] - arrivals[i - 1]);
+    ASSERT_TRUE(gap_ms > 9.4 && gap_ms < 10.6) << gap_ms;
+  }
+}
+
+TEST_F(EmulatedWiimoteTest, waits_on_the_clock_for_the_next_report_when_told_to) {
+  const auto wiimote = device();
+  wiimote->write(kStream);
+  const HidRead got = wiimote->read(buffer_, Time{std::chrono::seconds(1)});
+  EXPECT_EQ(got.status, HidStatus::report);
+  EXPECT_EQ(clock_.now(), got.arrival);
+  EXPECT_GE(got.arrival, Time{milliseconds(6)});
+}
+
+TEST_F(EmulatedWiimoteTest, cuts_a_report_that_does_not_fit) {
+  const auto wiimote = device();
+  wiimote->write(kStream);
+  clock_.sleep_until(Time{milliseconds(100)});
+  EXPECT_EQ(wiimote->read(std::span(buffer_).first(5), clock_.now()).size, 5u);
+}
+
+TEST_F(EmulatedWiimoteTest, refuses_what_is_no_output_report) {
+  const auto wiimote = device();
+  EXPECT_FALSE(wiimote->write({}));
+  EXPECT_FALSE(wiimote->write(std::array<std::uint8_t, 2>{0x33, 0}));
+  EXPECT_TRUE(wiimote->write(std::array<std::uint8_t, 2>{0x11, 0x10}));
+}
+
+}  // namespace
+}  // namespace vindu

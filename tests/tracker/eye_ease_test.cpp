@@ -1,0 +1,72 @@
+// The shown eye when tracking comes and goes: it never jumps.
+#include "tracker/eye_ease.h"
+
+#include <gtest/gtest.h>
+
+namespace vindu {
+namespace {
+
+using std::chrono::milliseconds;
+
+const Vec3 kDefault(0, 0.1, 2);
+const Vec3 kViewer(0.8, 0.2, 1.5);
+constexpr Duration kFrame = std::chrono::microseconds(16667);
+
+// Feeds one eye (or none) for a while; the eye last shown. Every step is checked against a limit.
+class Show {
+ public:
+  Vec3 run(const std::optional<Vec3>& tracked_eye_in_wall, Duration duration) {
+    for (const Time end = now_ + duration; now_ < end; now_ += kFrame) {
+      const Vec3 shown = ease_.update(tracked_eye_in_wall, now_);
+      largest_step_m_ = std::max(largest_step_m_, (shown - shown_).norm());
+      shown_ = shown;
+    }
+    return shown_;
+  }
+  double largest_step_m() const { return largest_step_m_; }
+
+ private:
+  EyeEase ease_{kDefault};
+  Time now_{};
+  Vec3 shown_ = kDefault;
+  double largest_step_m_ = 0;
+};
+
+TEST(EyeEase, shows_the_default_eye_until_something_is_tracked) {
+  EXPECT_EQ(Show().run(std::nullopt, std::chrono::seconds(10)), kDefault);
+}
+
+TEST(EyeEase, shows_the_tracked_eye_itself_once_it_has_caught_up) {
+  EXPECT_EQ(Show().run(kViewer, std::chrono::seconds(2)), kViewer);
+}
+
+TEST(EyeEase, holds_for_two_seconds_then_eases_to_the_default) {
+  Show show;
+  show.run(kViewer, std::chrono::seconds(2));
+  EXPECT_EQ(show.run(std::nullopt, milliseconds(1980)), kViewer);
+  const Vec3 halfway = show.run(std::nullopt, milliseconds(770));
+  EXPECT_LT((halfway - 0.5 * (kViewer + kDefault)).norm(), 0.05);
+  EXPECT_LT((show.run(std::nullopt, milliseconds(1000)) - kDefault).norm(), 1e-12);
+}
+
+TEST(EyeEase, never_jumps) {
+  Show show;
+  show.run(kViewer, std::chrono::seconds(2));
+  show.run(std::nullopt, std::chrono::seconds(3));  // on its way to the default
+  show.run(Vec3(-1, 0, 1), milliseconds(200));      // found again elsewhere
+  show.run(std::nullopt, std::chrono::seconds(6));
+  show.run(kViewer, std::chrono::seconds(2));
+  EXPECT_LT(show.largest_step_m(), 1.5 * seconds(kFrame) * 1.01);  // 1.5 m/s
+  EXPECT_GT(show.largest_step_m(), 0);
+}
+
+TEST(EyeEase, is_over_a_short_gap_within_a_few_frames) {
+  Show show;
+  show.run(kViewer, std::chrono::seconds(2));
+  show.run(std::nullopt, 2 * kFrame);
+  const Vec3 moved = kViewer + Vec3(0.02, 0, 0);
+  EXPECT_EQ(show.run(moved, 4 * kFrame), moved);
+}
+
+}  // namespace
+}  // namespace vindu
