@@ -27,7 +27,7 @@ struct FrameState {
   std::uint64_t number = 0;
   Time photon_time{};  ///< when its light is expected to leave the wall; the master's clock
   Vec3 eye_in_wall = Vec3(0, 0.10, 2.0);
-  Navigation navigation;
+  Navigation navigation{};
   double animation_time_s = 0;
   Mode mode = Mode::track;
 };
