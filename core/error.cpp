@@ -31,7 +31,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-Error::Error(ErrorText text) : std::runtime_error(one_line(text)) {}
+Error::Error(const ErrorText& text) : std::runtime_error(one_line(text)) {}
 
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates) {
   std::string best;

@@ -20,9 +20,9 @@ struct ErrorText {
 /// Reads as one line, "where: what; remedy", whichever parts are there.
 class Error : public std::runtime_error {
  public:
-  explicit Error(ErrorText text);
+  explicit Error(const ErrorText& text);
   /// Several errors of one input, shown one a line.
-  explicit Error(std::string lines) : std::runtime_error(std::move(lines)) {}
+  explicit Error(const std::string& lines) : std::runtime_error(lines) {}
 };
 
 /// The candidate that `word` was probably meant to be, or empty when none is near: at most two

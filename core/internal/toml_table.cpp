@@ -116,7 +116,7 @@ std::optional<std::string> TomlTable::text(const std::string& name) {
 
 std::optional<std::string> TomlTable::one_of(const std::string& name,
                                              const std::vector<std::string>& allowed) {
-  const std::optional<std::string> value = text(name);
+  std::optional<std::string> value = text(name);
   if (!value || std::ranges::find(allowed, *value) != allowed.end()) return value;
   const std::string near = nearest_name(*value, allowed);
   const std::string hint = near.empty() ? "" : " (did you mean \"" + near + "\"?)";

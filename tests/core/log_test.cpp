@@ -15,7 +15,7 @@ std::string lines_at(LogLevel level) {
   log_debug("tile-0-0", "a detail");
   log_info("tile-1-0", "news");
   log_warning("camera left", "a warning");
-  const std::string lines = ::testing::internal::GetCapturedStderr();
+  std::string lines = ::testing::internal::GetCapturedStderr();
   set_log_level(LogLevel::normal);
   return lines;
 }
