@@ -33,7 +33,9 @@ const stbtt_fontinfo& font(bool bold) {
   return bold ? bold_font.info : plain_font.info;
 }
 
-/// Decodes one UTF-8 character and advances; malformed bytes become U+FFFD.
+bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xc0) == 0x80; }
+
+/// Decodes one UTF-8 character and advances; each malformed byte becomes U+FFFD.
 int next_character(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   const std::size_t length = first < 0x80       ? 1
@@ -41,7 +43,8 @@ int next_character(std::string_view& text) {
                              : first >> 4 == 14 ? 3
                              : first >> 3 == 30 ? 4
                                                 : 0;
-  if (length == 0 || length > text.size()) {
+  if (length == 0 || length > text.size() ||
+      !std::ranges::all_of(text.substr(1, length - 1), continues)) {
     text.remove_prefix(1);
     return 0xfffd;
   }

@@ -5,6 +5,26 @@
 #include <cmath>
 
 namespace vindu {
+namespace {
+
+/// Unit vectors of a camera, in world.
+struct Axes {
+  Vec3 forward;
+  Vec3 right;
+  Vec3 up;
+};
+
+/// Looks towards -z where the target is the eye itself; straight up or down, the picture is as
+/// somebody sees it who faces -z.
+Axes axes_of(const Camera& camera) {
+  const Vec3 ahead = camera.target_in_world - camera.eye_in_world;
+  const Vec3 forward = ahead.norm() > 1e-9 ? Vec3(ahead.normalized()) : Vec3(-Vec3::UnitZ());
+  const Vec3 across = forward.cross(Vec3::UnitY());
+  const Vec3 right = across.norm() > 1e-9 ? Vec3(across.normalized()) : Vec3(Vec3::UnitX());
+  return {forward, right, right.cross(forward)};
+}
+
+}  // namespace
 
 std::optional<View> tile_view(const TileCorners& corners, const Vec3& eye_in_wall) {
   const auto clip = clip_from_wall(corners, eye_in_wall);
@@ -13,12 +33,10 @@ std::optional<View> tile_view(const TileCorners& corners, const Vec3& eye_in_wal
 }
 
 View camera_view(const Camera& camera) {
-  const Vec3 forward = (camera.target_in_world - camera.eye_in_world).normalized();
-  const Vec3 right = forward.cross(Vec3::UnitY()).normalized();
-  const Vec3 up = right.cross(forward);
+  const Axes axes = axes_of(camera);
   const double half_height = std::tan(0.5 * camera.fov_y_rad);
-  const Vec3 across = camera.aspect * half_height * right, along = half_height * up;
-  const Vec3 middle = camera.eye_in_world + forward;
+  const Vec3 across = camera.aspect * half_height * axes.right, along = half_height * axes.up;
+  const Vec3 middle = camera.eye_in_world + axes.forward;
   const TileCorners screen{middle - across - along, middle + across - along,
                            middle - across + along};
   return *tile_view(screen, camera.eye_in_world);
@@ -29,9 +47,7 @@ Camera camera_on_wall(const Wall& wall, const Vec3& eye_in_wall, double aspect) 
   for (const Tile& tile : wall.tiles) middle += tile.corners.centre_in_wall();
   middle /= static_cast<double>(wall.tiles.size());
   Camera camera{.eye_in_world = eye_in_wall, .target_in_world = middle, .aspect = aspect};
-  const Vec3 forward = (middle - eye_in_wall).normalized();
-  const Vec3 right = forward.cross(Vec3::UnitY()).normalized();
-  const Vec3 up = right.cross(forward);
+  const Axes axes = axes_of(camera);
   const double widest = std::min(std::tan(radians(60)), std::tan(radians(70)) / aspect);
   double half_height = 0;
   for (const Tile& tile : wall.tiles)
@@ -39,10 +55,10 @@ Camera camera_on_wall(const Wall& wall, const Vec3& eye_in_wall, double aspect) 
          {tile.corners.lower_left_in_wall, tile.corners.lower_right_in_wall,
           tile.corners.upper_left_in_wall, tile.corners.upper_right_in_wall()}) {
       const Vec3 ray = corner - eye_in_wall;
-      const double depth = ray.dot(forward);
+      const double depth = ray.dot(axes.forward);
       if (depth <= 1e-6) return camera.fov_y_rad = 2 * std::atan(widest), camera;
-      half_height = std::max(
-          {half_height, std::abs(ray.dot(up)) / depth, std::abs(ray.dot(right)) / depth / aspect});
+      half_height = std::max({half_height, std::abs(ray.dot(axes.up)) / depth,
+                              std::abs(ray.dot(axes.right)) / depth / aspect});
     }
   camera.fov_y_rad = 2 * std::atan(std::min(1.03 * half_height, widest));
   return camera;
