@@ -3,18 +3,29 @@
 import pathlib
 import sys
 
+import laboratory
+import person
+import show
+import wiimote
+
 ASSETS = pathlib.Path(__file__).resolve().parents[2] / "assets"
+MODELS = {
+    "show": (show.make, "show/show.glb"),
+    "lab": (laboratory.make_lab, "lab/lab.glb"),
+    "wiimote": (wiimote.make_wiimote, "lab/wiimote.glb"),
+    "head": (person.make_head, "lab/head.glb"),
+    "body": (person.make_body, "lab/body.glb"),
+}
 
 
 def main(wanted):
-    known = {"show": "show/show.glb"}
-    for name in wanted or known:
-        if name not in known:
-            sys.exit(f"make_assets: '{name}' is none of {', '.join(known)}")
-        file = ASSETS / known[name]
-        file.parent.mkdir(parents=True, exist_ok=True)
-        module = __import__("show" if name == "show" else "laboratory")
-        getattr(module, "make" if name == "show" else f"make_{name}")(file)
+    unknown = [name for name in wanted if name not in MODELS]
+    if unknown:
+        sys.exit(f"make_assets: '{unknown[0]}' is none of {', '.join(MODELS)}")
+    for name in wanted or MODELS:
+        make, file = MODELS[name]
+        (ASSETS / file).parent.mkdir(parents=True, exist_ok=True)
+        make(ASSETS / file)
 
 
 if __name__ == "__main__":
