@@ -4,11 +4,11 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <array>
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
-#include <new>
+#include <span>
 
 #include "core/error.h"
 #include "renderer/import_file.h"
@@ -43,6 +43,9 @@ std::string one_line(const char* message) {
 }
 
 [[noreturn]] void throw_broken(const std::string& file, const std::string& why) {
+  if (why.find("bad_alloc") != std::string::npos)
+    throw Error({"asks for more memory than there is, or than a file of its size can need", file,
+                 "reduce the model; if it is small, it is broken"});
   const bool misses_file = why.find("could not open referenced file") != std::string::npos;
   throw Error({"cannot be read as a model" + (why.empty() ? "" : " (" + why + ")"), file,
                misses_file ? "put that file beside the model" : kBrokenRemedy});
@@ -77,13 +80,27 @@ std::string loader_of(const aiScene& source) {
   return known ? name.C_Str() : "";
 }
 
+/// Triangulation trusts this flag: Debian's Assimp aborts where a loader claims polygons that are
+/// not there. The scene is the importer's own; Assimp hands it out as const only.
+void correct_primitive_types(const aiScene& source) {
+  for (unsigned m = 0; m < source.mNumMeshes; ++m) {
+    aiMesh& mesh = *source.mMeshes[m];
+    const std::span<const aiFace> faces(mesh.mFaces, mesh.mNumFaces);
+    constexpr auto is_polygon = [](const aiFace& face) { return face.mNumIndices > 3; };
+    mesh.mPrimitiveTypes &= ~static_cast<unsigned>(aiPrimitiveType_POLYGON);
+    if (std::ranges::any_of(faces, is_polygon)) mesh.mPrimitiveTypes |= aiPrimitiveType_POLYGON;
+  }
+}
+
 /// Owned by `importer`.
 const aiScene& read_with_assimp(Assimp::Importer& importer, const std::string& file,
                                 const ImportLimits& limits) {
+  const MemoryBudget budget(reading_budget_bytes(file));
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* source = importer.ReadFile(file, 0);
   if (!source || !source->mRootNode) throw_broken(file, one_line(importer.GetErrorString()));
   check_faces(*source, file, limits);
+  correct_primitive_types(*source);
   unsigned steps = aiProcess_Triangulate;
   if (loader_of(*source) != kGltf2Loader) steps |= aiProcess_TransformUVCoords;  // glTF's are ours
   source = importer.ApplyPostProcessing(steps);
@@ -227,8 +244,6 @@ ImportResult import_scene(const std::string& file, const ImportLimits& limits) {
     return converted(read_with_assimp(importer, file, limits), file, limits);
   } catch (const Error&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    throw Error({"needs more memory than there is", file, "reduce the model or split it"});
   } catch (const std::exception& error) {
     throw_broken(file, one_line(error.what()));
   }

@@ -1,5 +1,7 @@
 #include "renderer/import_file.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
@@ -8,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -98,6 +101,56 @@ void check_format(const std::string& file) {
                  std::string("convert it; ") + kCommonFormats});
 }
 
+constexpr std::uintmax_t kFixedPart = std::uintmax_t{2} << 30;
+/// Compressed text (Collada in a .zae) grows most: ten times unpacked, twenty times as a tree.
+constexpr std::uintmax_t kPerByte = 100;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kCanLimit = false;
+#else
+constexpr bool kCanLimit = true;
+#endif
+
+/// The limit is one of the process.
+std::mutex& budget_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// Address space in use now (proc(5), statm).
+std::uintmax_t process_bytes() {
+  std::uintmax_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// proc(5), meminfo; the largest number where it is not known.
+std::uintmax_t free_bytes() {
+  std::ifstream meminfo("/proc/meminfo");
+  std::string name;
+  std::string unit;
+  for (std::uintmax_t kibibytes = 0; meminfo >> name >> kibibytes; std::getline(meminfo, unit))
+    if (name == "MemAvailable:") return kibibytes * 1024;
+  return std::numeric_limits<std::uintmax_t>::max();
+}
+
+std::uintmax_t size_of(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t bytes = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
+  return error ? 0 : bytes;
+}
+
+std::uintmax_t model_bytes(const std::string& model_file) {
+  if (lower_extension(model_file) != ".gltf") return size_of(model_file);
+  const fs::path folder = fs::path(model_file).parent_path();
+  std::uintmax_t bytes = 0;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end;
+       !error && entry != end; entry.increment(error))
+    bytes += size_of(entry->path());
+  return bytes;
+}
+
 }  // namespace
 
 std::string lower_case(std::string_view text) {
@@ -119,6 +172,21 @@ void check_model_file(const std::string& file, std::uintmax_t max_bytes) {
   check_format(file);
   check_size(file, max_bytes);
   check_readable(file);
+}
+
+MemoryBudget::MemoryBudget(std::uintmax_t bytes) : alone_(budget_mutex()) {
+  if (!kCanLimit || getrlimit(RLIMIT_AS, &before_) != 0) return;
+  rlimit limit = before_;
+  limit.rlim_cur = std::min<rlim_t>(before_.rlim_cur, process_bytes() + bytes);
+  lowered_ = setrlimit(RLIMIT_AS, &limit) == 0;
+}
+
+MemoryBudget::~MemoryBudget() {
+  if (lowered_) setrlimit(RLIMIT_AS, &before_);
+}
+
+std::uintmax_t reading_budget_bytes(const std::string& model_file) {
+  return std::min(kFixedPart + kPerByte * model_bytes(model_file), free_bytes());
 }
 
 }  // namespace vindu
