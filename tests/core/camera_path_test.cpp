@@ -51,6 +51,12 @@ TEST(CameraPath, OfTwoKeysGoesThereAndBack) {
   EXPECT_THAT(path.eye_at(1.5), IsNearPoint(Vec3(0, 0, 2), 1e-12));
 }
 
+TEST(CameraPath, KeepsAConstantSpeedWhereItsKeysDoHoweverTheyAreSpaced) {
+  const CameraPath path({{0, {0, 0, 2}}, {1, {1, 0, 2}}, {1.5, {1.5, 0, 2}}, {3, {3, 0, 2}}}, 5);
+  for (const double t_s : {1.0, 1.1, 1.25, 1.49})
+    EXPECT_THAT(path.eye_at(t_s), IsNearPoint(Vec3(t_s, 0, 2), 1e-12));
+}
+
 TEST(CameraPath, StaysAmongKeysOfALine) {
   const CameraPath path({{0, {0, 0, 1}}, {1, {0, 0, 2}}, {2, {0, 0, 3}}, {3, {0, 0, 2}}}, 1);
   for (double t_s = 0; t_s < 4; t_s += 0.01) {
