@@ -1,10 +1,13 @@
-"""Makes the models in assets/: python3 tools/make_assets [show] [lab] [head] [body] [wiimote]. Same bytes each time."""
+"""Makes the models in assets/: python3 tools/make_assets [show] [lab] [head] [body] [wiimote]. Same
+bytes each time.
+"""
 
 import pathlib
 import sys
 
+import body
+import head
 import laboratory
-import person
 import show
 import wiimote
 
@@ -13,8 +16,8 @@ MODELS = {
     "show": (show.make, "show/show.glb"),
     "lab": (laboratory.make_lab, "lab/lab.glb"),
     "wiimote": (wiimote.make_wiimote, "lab/wiimote.glb"),
-    "head": (person.make_head, "lab/head.glb"),
-    "body": (person.make_body, "lab/body.glb"),
+    "head": (head.make_head, "lab/head.glb"),
+    "body": (body.make_body, "lab/body.glb"),
 }
 
 

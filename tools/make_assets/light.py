@@ -1,7 +1,8 @@
-"""The light of the show: an arctic dusk. What the scripts bake into vertex colours (linear, 1 is white).
+"""The light of the show: an arctic dusk. What the scripts bake into vertex colours (linear, 1 is
+white).
 
-Cool light of sky and aurora from above and from the viewer's left, a last warm band over the end of the fjord, and
-the warm lamps. Frame: wall, metres.
+Cool light of sky and aurora from above and from the viewer's left, a last warm band over the end of
+the fjord, and the warm lamps. Frame: wall, metres.
 """
 
 import math
@@ -9,8 +10,8 @@ import math
 from mesh import add, clamp, dot, mix, mul, scaled, sub, unit
 from noise import fbm
 
-WATER_Y = -1.2           # the fjord's level; the wall's lower edge is at -1.119
-DUSK_AZIMUTH = 0.10      # of the warm band, radians to the right of -z
+WATER_Y = -1.2  # the fjord's level; the wall's lower edge is at -1.119
+DUSK_AZIMUTH = 0.10  # of the warm band, radians to the right of -z
 SKY_UP = (0.085, 0.150, 0.205)
 SKY_DOWN = (0.020, 0.038, 0.060)
 MOON = (0.20, 0.29, 0.36)
@@ -34,17 +35,19 @@ def sky_colour(azimuth, elevation):
     rose = gaussian(a, 46) * math.exp(-e / 11.0)
     colour = add(colour, mul((0.150, 0.052, 0.090), rose))
     glow = gaussian(a, 34) * math.exp(-((e / 7.0) ** 1.2))
-    return add(colour, mul((0.86, 0.34, 0.10), glow))
+    return add(colour, mul((1.10, 0.42, 0.11), glow))
 
 
-def fogged(colour, position, density=1 / 4200.0):
+def fogged(colour, position, density=1 / 5600.0):
     """Aerial perspective towards the sky's colour at the horizon in that direction."""
     x, y, z = position
     distance = math.sqrt(x * x + z * z)
     azimuth = math.atan2(x, -z)
     height = max(0.0, y - WATER_Y)
     amount = 1 - math.exp(-distance * density * math.exp(-height / 900.0))
-    amount = amount + (0.35 * math.exp(-height / 45.0)) * (1 - math.exp(-distance / 900.0)) * (1 - amount)
+    amount = amount + (0.30 * math.exp(-height / 60.0)) * (1 - math.exp(-distance / 900.0)) * (
+        1 - amount
+    )
     veil = mul(sky_colour(azimuth, math.radians(3.5)), 0.82)
     return mix(colour, veil, clamp(amount))
 

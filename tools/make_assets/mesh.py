@@ -1,7 +1,7 @@
 """Triangle meshes built from simple shapes, and the few vector functions that they need.
 
-Vectors are tuples. A mesh carries position, normal and linear colour per vertex; `bake` turns albedo into light.
-Triangles are counter-clockwise as seen from outside (glTF's front).
+Vectors are tuples. A mesh carries position, normal and linear colour per vertex; `bake` turns
+albedo into light. Triangles are counter-clockwise as seen from outside (glTF's front).
 """
 
 import math
@@ -91,11 +91,19 @@ class Mesh:
             self.triangle(first[0], first[2], first[3])
             return
         nu, nv = split if isinstance(split, tuple) else (split, split)
-        self.grid([[mix(mix(a, b, u / nu), mix(d, c, u / nu), v / nv) for u in range(nu + 1)]
-                   for v in range(nv + 1)], colour, normal)
+        self.grid(
+            [
+                [mix(mix(a, b, u / nu), mix(d, c, u / nu), v / nv) for u in range(nu + 1)]
+                for v in range(nv + 1)
+            ],
+            colour,
+            normal,
+        )
 
     def grid(self, rows, colour, normal=None, closed=False, uvs=None):
-        """Rows of points; front is where columns run right and rows run up. Colour: a value or f(point, normal)."""
+        """Rows of points; front is where columns run right and rows run up. Colour: a value or
+        f(point, normal).
+        """
         height, width = len(rows), len(rows[0])
         base = len(self.positions)
         for j in range(height):
@@ -150,8 +158,14 @@ class Mesh:
         if not isinstance(radii, tuple):
             radii = (radii, radii, radii)
         base = len(self.positions)
-        self.lathe([(math.sin(math.pi * i / rings), -math.cos(math.pi * i / rings)) for i in range(rings + 1)],
-                   sides, colour)
+        self.lathe(
+            [
+                (math.sin(math.pi * i / rings), -math.cos(math.pi * i / rings))
+                for i in range(rings + 1)
+            ],
+            sides,
+            colour,
+        )
         for i in range(base, len(self.positions)):
             p = self.positions[i]
             self.positions[i] = add(centre, scaled(p, radii))
@@ -167,16 +181,28 @@ class Mesh:
             along = unit(sub(points[min(i + 1, len(points) - 1)], points[max(i - 1, 0)]))
             side = unit(sub(side, mul(along, dot(side, along))))
             other = cross(along, side)
-            rows.append([add(p, add(mul(side, radii[i] * math.cos(a)), mul(other, radii[i] * math.sin(a))))
-                         for a in (2 * math.pi * k / sides for k in range(sides))])
+            rows.append(
+                [
+                    add(
+                        p,
+                        add(mul(side, radii[i] * math.cos(a)), mul(other, radii[i] * math.sin(a))),
+                    )
+                    for a in (2 * math.pi * k / sides for k in range(sides))
+                ]
+            )
         if cap:
             rows = [[points[0]] * sides] + rows + [[points[-1]] * sides]
         self.grid(rows, colour, closed=True)
 
     def sweep(self, frames, outline, colour):
-        """Flat-sided beam: frames (origin, right, up), a closed counter-clockwise outline of (right, up)."""
+        """Flat-sided beam: frames (origin, right, up), a closed counter-clockwise outline of
+        (right, up).
+        """
         for (u0, v0), (u1, v1) in zip(outline, outline[1:] + outline[:1]):
-            rows = [[add(o, add(mul(r, u), mul(t, v))) for u, v in ((u0, v0), (u1, v1))] for o, r, t in frames]
+            rows = [
+                [add(o, add(mul(r, u), mul(t, v))) for u, v in ((u0, v0), (u1, v1))]
+                for o, r, t in frames
+            ]
             self.grid(rows, colour)
 
     def append(self, other, carry=None, tint=None):
@@ -186,24 +212,32 @@ class Mesh:
         for p, n, c in zip(other.positions, other.normals, other.colours):
             self.positions.append(carry(p) if carry else p)
             self.normals.append(unit(sub(carry(n), origin)) if carry else n)
-            self.colours.append((c[0] * tint[0], c[1] * tint[1], c[2] * tint[2], c[3]) if tint else c)
+            self.colours.append(
+                (c[0] * tint[0], c[1] * tint[1], c[2] * tint[2], c[3]) if tint else c
+            )
         self.uvs += other.uvs
         self.indices += [base + i for i in other.indices]
         return self
 
     def seen_from(self, eyes):
-        """Without the triangles that turn their back to all eyes (the corners of a box around every eye)."""
+        """Without the triangles that turn their back to all eyes (the corners of a box around every
+        eye).
+        """
         result, moved = Mesh(), {}
         for i in range(0, len(self.indices), 3):
-            corner = self.indices[i:i + 3]
+            corner = self.indices[i : i + 3]
             a, b, c = (self.positions[k] for k in corner)
             normal = cross(sub(b, a), sub(c, a))
             if all(dot(normal, sub(eye, a)) <= 0 for eye in eyes):
                 continue
             for k in corner:
                 if k not in moved:
-                    moved[k] = result.vertex(self.positions[k], self.normals[k], self.colours[k],
-                                             self.uvs[k] if self.uvs else None)
+                    moved[k] = result.vertex(
+                        self.positions[k],
+                        self.normals[k],
+                        self.colours[k],
+                        self.uvs[k] if self.uvs else None,
+                    )
                 result.indices.append(moved[k])
         return result
 
@@ -214,12 +248,14 @@ class Mesh:
         result.normals = [(x, -y, z) for x, y, z in self.normals]
         result.colours, result.uvs = list(self.colours), list(self.uvs)
         for i in range(0, len(self.indices), 3):
-            a, b, c = self.indices[i:i + 3]
+            a, b, c = self.indices[i : i + 3]
             result.indices += (a, c, b)
         return result
 
     def bake(self, light):
         """colour = light(position, normal, colour) for every vertex; alpha stays."""
-        self.colours = [(*light(p, n, c[:3]), c[3])
-                        for p, n, c in zip(self.positions, self.normals, self.colours)]
+        self.colours = [
+            (*light(p, n, c[:3]), c[3])
+            for p, n, c in zip(self.positions, self.normals, self.colours)
+        ]
         return self

@@ -28,7 +28,7 @@ def fbm(x, y, octaves, seed=0):
     for k in range(octaves):
         total += weight * noise(x * scale + 17.3 * k, y * scale - 9.1 * k, seed + k)
         weight, scale = weight * 0.5, scale * 2.0
-    return total / (1 - 0.5 ** octaves)
+    return total / (1 - 0.5**octaves)
 
 
 def ridged(x, y, octaves, seed=0):

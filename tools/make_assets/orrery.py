@@ -1,16 +1,16 @@
-"""The show's focal point: a turning armillary sphere with planets that swing out in front of the screen plane,
-and ice crystals that drift before it. Lit by the renderer; everything returns to its start after PERIOD seconds.
+"""The show's focal point: a turning armillary sphere with planets that swing out in front of the
+screen plane, and ice crystals that drift before it. Lit by the renderer; everything returns to its
+start after PERIOD seconds.
 """
 
 import math
 import random
 
-from light import WATER_Y
-from mesh import Mesh, add, cross, mix, mul, placed, quaternion, rotate, smoothstep, sub, unit
+from mesh import Mesh, add, cross, mix, mul, placed, quaternion, smoothstep
 from noise import fbm
 
 PERIOD = 60.0
-CENTRE = (0.0, 0.06, -0.10)        # in wall
+CENTRE = (0.0, 0.06, -0.10)  # in wall
 BRASS = (0.88, 0.56, 0.22)
 COPPER = (0.80, 0.36, 0.17)
 SILVER = (0.72, 0.78, 0.84)
@@ -19,10 +19,19 @@ SILVER = (0.72, 0.78, 0.84)
 def ring(radius, width, thick, colour, ticks=0):
     """A flat hoop about the y axis, polished, with raised marks."""
     mesh = Mesh()
-    sides = 128
+    sides = 104
     r0, r1, h = radius - thick / 2, radius + thick / 2, width / 2
     e = min(thick, width) * 0.22
-    profile = [(r1 - e, -h), (r1, -h + e), (r1, h - e), (r1 - e, h), (r0 + e, h), (r0, h - e), (r0, -h + e), (r0 + e, -h)]
+    profile = [
+        (r1 - e, -h),
+        (r1, -h + e),
+        (r1, h - e),
+        (r1 - e, h),
+        (r0 + e, h),
+        (r0, h - e),
+        (r0, -h + e),
+        (r0 + e, -h),
+    ]
     for (ra, ya), (rb, yb) in zip(profile, profile[1:] + profile[:1]):
         mesh.lathe([(ra, ya), (rb, yb)], sides, colour)
     for k in range(ticks):
@@ -30,7 +39,11 @@ def ring(radius, width, thick, colour, ticks=0):
         a = 2 * math.pi * k / ticks
         mark = Mesh()
         half = 0.0022 if long else 0.0013
-        mark.box((r1 - 0.002, -h * (0.92 if long else 0.45), -half), (r1 + 0.0035, h * (0.92 if long else 0.45), half), mix(colour, (1, 0.9, 0.7), 0.5))
+        mark.box(
+            (r1 - 0.002, -h * (0.92 if long else 0.45), -half),
+            (r1 + 0.0035, h * (0.92 if long else 0.45), half),
+            mix(colour, (1, 0.9, 0.7), 0.5),
+        )
         mesh.append(mark, placed(turn=quaternion((0, 1, 0), a)))
     return mesh
 
@@ -49,9 +62,12 @@ def planet(radius, colour, seed, ringed=False):
 
     def marble(p, _):
         swirl = fbm(p[0] * 2.2 + 9 + p[1], p[1] * 5.5 + 4 + 0.8 * p[2], 4, seed)
-        return mix(mul(colour, 0.30), mix(colour, (1, 0.95, 0.85), 0.10), smoothstep(0.3, 0.7, swirl))
+        return mix(
+            mul(colour, 0.30), mix(colour, (1, 0.95, 0.85), 0.10), smoothstep(0.3, 0.7, swirl)
+        )
+
     ball = Mesh()
-    ball.sphere((0, 0, 0), 1.0, marble, 36, 22)
+    ball.sphere((0, 0, 0), 1.0, marble, 30, 18)
     mesh.append(ball, placed(scale=radius))
     if ringed:
         for side in (1, -1):
@@ -67,6 +83,7 @@ def sun():
     def glow(p, n):
         g = fbm(p[0] * 5 + 3 + 2 * p[2], p[1] * 5 + 8 - p[2], 4, 77)
         return mix((1.0, 0.45, 0.10), (1.0, 0.90, 0.58), smoothstep(0.25, 0.62, g))
+
     mesh.sphere((0, 0, 0), 1.0, glow, 48, 30)
     return Mesh().append(mesh, placed(scale=0.088))
 
@@ -97,7 +114,12 @@ def rings(document, root, metal):
     for s in (-1, 1):
         knob(frame, (0, s * 0.622, 0), 0.022, BRASS)
         frame.tube([(0, s * 0.60, 0), (0, s * 0.52, 0)], 0.006, BRASS, 10)
-    document.node("meridian", document.mesh("meridian", frame, metal), root, rotation=quaternion((0, 1, 0), 0.5))
+    document.node(
+        "meridian",
+        document.mesh("meridian", frame, metal),
+        root,
+        rotation=quaternion((0, 1, 0), 0.5),
+    )
     spin(document, len(document.nodes) - 1, (0, 1, 0), 1, phase=0.5)
     hoops = (
         ("horizon", 0.545, 0.052, 0.008, BRASS, 180, (0, 1, 0), quaternion((0, 0, 1), 0.41), -1),
@@ -129,7 +151,9 @@ def planets(document, root, metal, enamel):
         carrier = document.node(name + " arm", document.mesh(name + " arm", arm, metal), root)
         spin(document, carrier, (0, 1, 0), turns, tilt, phase)
         ball = document.mesh(name, planet(radius, colour, 90 + k, name == "giant"), enamel)
-        node = document.node(name, ball, carrier, translation=(orbit, 0, 0), rotation=quaternion((1, 0, 0.4), 0.4))
+        node = document.node(
+            name, ball, carrier, translation=(orbit, 0, 0), rotation=quaternion((1, 0, 0.4), 0.4)
+        )
         spin(document, node, (0, 1, 0), 6, quaternion((1, 0, 0.4), 0.4))
 
 
@@ -142,28 +166,49 @@ def crystal(seed):
     for (ra, ya), (rb, yb) in zip(levels, levels[1:]):
         for k in range(6):
             a, b = angles[k], angles[(k + 1) % 6]
-            corners = [(ra * math.cos(a), ya, -ra * math.sin(a)), (ra * math.cos(b), ya, -ra * math.sin(b)),
-                       (rb * math.cos(b), yb, -rb * math.sin(b)), (rb * math.cos(a), yb, -rb * math.sin(a))]
+            corners = [
+                (ra * math.cos(a), ya, -ra * math.sin(a)),
+                (ra * math.cos(b), ya, -ra * math.sin(b)),
+                (rb * math.cos(b), yb, -rb * math.sin(b)),
+                (rb * math.cos(a), yb, -rb * math.sin(a)),
+            ]
             tone = mix((0.10, 0.42, 0.55), (0.78, 0.95, 1.0), dice.random())
             mesh.face(corners, tone)
     return mesh
 
 
 CRYSTALS = (  # place in wall, height, lean
-    ((-1.34, 0.40, 0.34), 0.17, 0.5), ((-1.02, -0.34, 0.52), 0.12, -0.7), ((-1.48, -0.02, 0.12), 0.09, 0.2),
-    ((1.30, 0.34, 0.40), 0.14, -0.4), ((1.05, -0.40, 0.55), 0.15, 0.8), ((1.46, -0.10, 0.16), 0.08, -0.2),
-    ((0.80, 0.62, 0.22), 0.07, 0.3), ((-0.78, 0.66, 0.26), 0.08, -0.5),
+    ((-1.34, 0.40, 0.34), 0.17, 0.5),
+    ((-1.02, -0.34, 0.52), 0.12, -0.7),
+    ((-1.48, -0.02, 0.12), 0.09, 0.2),
+    ((1.30, 0.34, 0.40), 0.14, -0.4),
+    ((1.05, -0.40, 0.55), 0.15, 0.8),
+    ((1.46, -0.10, 0.16), 0.08, -0.2),
+    ((0.80, 0.62, 0.22), 0.07, 0.3),
+    ((-0.78, 0.66, 0.26), 0.08, -0.5),
 )
 
 
 def crystals(document, ice):
     for k, (place, height, lean) in enumerate(CRYSTALS):
         shape = Mesh().append(crystal(300 + k), placed(scale=height))
-        node = document.node(f"crystal {k}", document.mesh(f"crystal {k}", shape, ice), translation=place)
-        spin(document, node, (0, 1, 0), (3, -2, 4, -3, 2, -4, 5, -5)[k], quaternion((0.3, 0, 1), lean), 0.7 * k)
+        node = document.node(
+            f"crystal {k}", document.mesh(f"crystal {k}", shape, ice), translation=place
+        )
+        spin(
+            document,
+            node,
+            (0, 1, 0),
+            (3, -2, 4, -3, 2, -4, 5, -5)[k],
+            quaternion((0.3, 0, 1), lean),
+            0.7 * k,
+        )
         steps, waves = 48, (4, 3, 5, 4, 3, 5, 6, 6)[k]
         times = [PERIOD * i / steps for i in range(steps + 1)]
-        bob = [add(place, (0, 0.035 * math.sin(2 * math.pi * (waves * i / steps) + k), 0)) for i in range(steps + 1)]
+        bob = [
+            add(place, (0, 0.035 * math.sin(2 * math.pi * (waves * i / steps) + k), 0))
+            for i in range(steps + 1)
+        ]
         document.animate(node, "translation", times, bob)
 
 

@@ -1,7 +1,8 @@
-"""The show, assets/show/show.glb: an arctic fjord at dusk behind a boat-ribbed hall that stands in still water.
+"""The show, assets/show/show.glb: an arctic fjord at dusk behind a boat-ribbed hall that stands in
+still water.
 
-Coordinates are wall coordinates in metres (`--place as-is`). The water is a mirror because everything above it is
-there twice: once upside down below the surface, which is a dark glass.
+Coordinates are wall coordinates in metres (`--place as-is`). The water is a mirror because
+everything above it is there twice: once upside down below the surface, which is a dark glass.
 """
 
 import math
@@ -12,10 +13,12 @@ import landscape
 import orrery
 import sky
 from light import WATER_Y, fogged, shade
-from mesh import Mesh, add, clamp, mul, placed, quaternion
+from mesh import Mesh, clamp, mul, placed, quaternion
 
 REFLECTED = 0.86
-EYES = [(x, y, z) for x in (-3, 3) for y in (-1.15, 2) for z in (0.05, 9)]  # every eye is between these
+EYES = [
+    (x, y, z) for x in (-3, 3) for y in (-1.15, 2) for z in (0.05, 9)
+]  # every eye is between these
 
 
 def mirrored(mesh, ripple=True):
@@ -28,17 +31,20 @@ def add_static(document, name, mesh, material, mirror=None):
     if mirror:
         whole.append(mirror, tint=(REFLECTED, REFLECTED, REFLECTED))
     whole = whole.seen_from(EYES)
-    print(f"  {name}: {len(whole.indices) // 3}")
     return document.node(name, document.mesh(name, whole, material))
 
 
 def far_scene(document, baked):
     dome = Mesh().append(sky.dome(False)).append(sky.dome(True))
     texture = document.texture(sky.texture(), "dusk and aurora")
-    document.node("sky", document.mesh("sky", dome, document.material("sky", unlit=True, texture=texture)))
+    document.node(
+        "sky", document.mesh("sky", dome, document.material("sky", unlit=True, texture=texture))
+    )
     document.node("stars", document.mesh("stars", sky.stars(), baked))
-    add_static(document, "mountains", landscape.mountains(470, 64), baked,
-               landscape.mountains(235, 36).mirrored(WATER_Y))
+    mountains = landscape.mountains(390, 66)
+    add_static(document, "mountains", mountains, baked, mountains.mirrored(WATER_Y))
+    forest = landscape.forest()
+    add_static(document, "forest", forest, baked, forest.mirrored(WATER_Y))
     islands = landscape.islands()
     add_static(document, "islands", islands, baked, mirrored(islands, False))
 
@@ -54,7 +60,9 @@ def near_scene(document, baked):
     hall.posts(iron, glow, places)
     iron.bake(lambda p, n, c: fogged(shade(p, n, mul(c, 1.6), lights), p, 1 / 260.0))
     standing = Mesh().append(timber).append(iron).append(glow)
-    reeds = hall.reeds().bake(lambda p, n, c: shade(p, n, c, lights, 0.4 + 0.6 * clamp((p[1] - WATER_Y) * 3)))
+    reeds = hall.reeds().bake(
+        lambda p, n, c: shade(p, n, c, lights, 0.4 + 0.6 * clamp((p[1] - WATER_Y) * 3))
+    )
     standing.append(reeds)
     frame = Mesh()
     hall.niche(frame)
@@ -72,7 +80,7 @@ def boats(document, baked):
     for k, ((x, z), turn, phase) in enumerate(moorings):
         at = placed((x, WATER_Y, z), quaternion((0, 1, 0), turn))
         world = Mesh().append(hall.boat(), at)
-        place = add(at((1.6, 1.05, 0)), (0, 0, 0))
+        place = at((1.6, 1.05, 0))
         body, glow = Mesh(), Mesh()
         hall.lantern(body, glow, place, 0.11)
         world.append(body)
@@ -83,7 +91,9 @@ def boats(document, baked):
             part = world.mirrored(WATER_Y) if image else world
             local = Mesh().append(part, lambda p: (p[0] - x, p[1] - WATER_Y, p[2] - z))
             name = f"boat {k}" + (" image" if image else "")
-            node = document.node(name, document.mesh(name, local, baked), translation=(x, WATER_Y, z))
+            node = document.node(
+                name, document.mesh(name, local, baked), translation=(x, WATER_Y, z)
+            )
             rock(document, node, (x, z), phase, image)
 
 
@@ -92,8 +102,18 @@ def rock(document, node, place, phase, image):
     times = [orrery.PERIOD * i / steps for i in range(steps + 1)]
     sign = -1 if image else 1
     waves = [2 * math.pi * 10 * i / steps + phase for i in range(steps + 1)]
-    document.animate(node, "translation", times, [(place[0], WATER_Y + sign * 0.022 * math.sin(w), place[1]) for w in waves])
-    document.animate(node, "rotation", times, [quaternion((0.5, 0, 1), sign * 0.022 * math.sin(w + 1)) for w in waves])
+    document.animate(
+        node,
+        "translation",
+        times,
+        [(place[0], WATER_Y + sign * 0.022 * math.sin(w), place[1]) for w in waves],
+    )
+    document.animate(
+        node,
+        "rotation",
+        times,
+        [quaternion((0.5, 0, 1), sign * 0.022 * math.sin(w + 1)) for w in waves],
+    )
 
 
 def glass(document, places):
@@ -106,7 +126,12 @@ def glass(document, places):
         hall.halo(halos, (x, y, z), radius, strength)
     x, y, z = orrery.CENTRE
     hall.halo(halos, (x, y, z - 0.09), 0.50, 0.42, (1.0, 0.62, 0.26))
-    document.node("halos", document.mesh("halos", halos, document.material("halo", unlit=True, blend=True, double_sided=True)))
+    document.node(
+        "halos",
+        document.mesh(
+            "halos", halos, document.material("halo", unlit=True, blend=True, double_sided=True)
+        ),
+    )
 
 
 def make(file):
@@ -115,9 +140,13 @@ def make(file):
     far_scene(document, baked)
     boats(document, baked)
     places = near_scene(document, baked)
-    metal = document.material("metal", (0.78, 0.78, 0.78, 1), metallic=1, roughness=0.30, emissive=(0.012, 0.006, 0.002))
+    metal = document.material(
+        "metal", (0.78, 0.78, 0.78, 1), metallic=1, roughness=0.30, emissive=(0.012, 0.006, 0.002)
+    )
     enamel = document.material("enamel", metallic=0, roughness=0.28)
-    ice = document.material("ice", (0.85, 0.95, 1.0, 1), metallic=0, roughness=0.12, emissive=(0.01, 0.05, 0.07))
+    ice = document.material(
+        "ice", (0.85, 0.95, 1.0, 1), metallic=0, roughness=0.12, emissive=(0.01, 0.05, 0.07)
+    )
     core = document.material("sun", unlit=True)
     orrery.build(document, metal, enamel, core, ice)
     glass(document, places)

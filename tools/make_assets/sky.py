@@ -1,7 +1,7 @@
 """The sky of the show: a dome with dusk and aurora as a texture, and stars as small faces.
 
-The aurora is drawn as it is in nature: thin folded curtains of light 100 km up, seen from below; where a fold turns
-along the line of sight it is brighter.
+The aurora is drawn as it is in nature: thin folded curtains of light 100 km up, seen from below;
+where a fold turns along the line of sight it is brighter.
 """
 
 import math
@@ -13,7 +13,7 @@ from mesh import Mesh, add, clamp, cross, mix, mul, smoothstep, unit
 from noise import fbm, noise
 
 WIDTH, HEIGHT = 1792, 640
-SPAN = math.radians(212)          # of azimuth, centred on -z
+SPAN = math.radians(212)  # of azimuth, centred on -z
 RADIUS = 9000.0
 CURTAINS = (  # distance of the nearest part and height are in units of the aurora's lower edge
     # distance, drift, folds, strength, seed, reach
@@ -72,7 +72,9 @@ def draw_curtain(light, curtain):
         if not 0 <= column < WIDTH - 1:
             continue
         away = math.hypot(x, z)
-        rays = 0.35 + 0.65 * noise(s * 26, 1.5, seed + 8) * (0.4 + 1.2 * noise(s * 7, 4.5, seed + 9))
+        rays = 0.35 + 0.65 * noise(s * 26, 1.5, seed + 8) * (
+            0.4 + 1.2 * noise(s * 7, 4.5, seed + 9)
+        )
         patches = smoothstep(0.28, 0.66, fbm(s * 0.42 + 3, 6.5, 2, seed + 10))
         bright = strength * rays * patches * 0.30 / (0.35 + 0.25 * away)
         if bright < 0.002:
@@ -88,7 +90,7 @@ def blurred(light, radius):
     """Box blur along the rows: softens the splats' grain."""
     result = []
     for row in range(HEIGHT):
-        line = light[row * WIDTH:(row + 1) * WIDTH]
+        line = light[row * WIDTH : (row + 1) * WIDTH]
         for channel in (0, 1):
             sums, total = [], 0.0
             for cell in line:
@@ -108,7 +110,9 @@ def srgb(linear):
 
 
 def texture():
-    """PNG bytes: azimuth to the right, horizon at the bottom; dithered, since it is dark and smooth."""
+    """PNG bytes: azimuth to the right, horizon at the bottom; dithered, since it is dark and
+    smooth.
+    """
     light = [[0.0, 0.0, 0.0, 0.0] for _ in range(WIDTH * HEIGHT)]
     for curtain in CURTAINS:
         draw_curtain(light, curtain)
@@ -119,21 +123,30 @@ def texture():
     for row in range(HEIGHT):
         elevation = elevation_of(row / (HEIGHT - 1))
         haze = smoothstep(math.radians(2), math.radians(9), elevation)
-        sky = [sky_colour(((i * 8) / (WIDTH - 1) - 0.5) * SPAN, elevation) for i in range(WIDTH // 8 + 2)]
+        sky = [
+            sky_colour(((i * 8) / (WIDTH - 1) - 0.5) * SPAN, elevation)
+            for i in range(WIDTH // 8 + 2)
+        ]
         for column in range(WIDTH):
             base = mix(sky[column >> 3], sky[(column >> 3) + 1], (column & 7) / 8)
             cell = light[row * WIDTH + column]
             g, v = cell[2] * haze, cell[3] * haze
-            colour = (base[0] + 0.10 * g + 0.62 * v, base[1] + 0.95 * g + 0.16 * v, base[2] + 0.50 * g + 0.95 * v)
+            colour = (
+                base[0] + 0.10 * g + 0.62 * v,
+                base[1] + 0.95 * g + 0.16 * v,
+                base[2] + 0.50 * g + 0.95 * v,
+            )
             grain = dice.random() - 0.5
             for value in colour:
                 value = 1 - math.exp(-value * 1.15) if value > 0.4 else value * 0.92
-                pixels.append(max(0, min(255, int(encode[min(4095, int(value * 4095))] + grain + 0.5))))
+                pixels.append(
+                    max(0, min(255, int(encode[min(4095, int(value * 4095))] + grain + 0.5)))
+                )
     return gltf.png(WIDTH, HEIGHT, bytes(pixels))
 
 
 def dome(mirror):
-    """Half a sphere around the view, from above; `mirror`: its image in the water, a little dimmer."""
+    """The upper half around the view; `mirror`: its image in the water, a little dimmer."""
     columns, rows = 72, 26
     mesh = Mesh()
     points, uvs = [], []
@@ -165,13 +178,17 @@ def stars(count=620):
         elevation = math.asin(0.10 + 0.88 * dice.random())
         magnitude = dice.random() ** 3.2
         size = RADIUS * math.radians(0.026 + 0.055 * magnitude)
-        towards = (math.cos(elevation) * math.sin(azimuth), math.sin(elevation), -math.cos(elevation) * math.cos(azimuth))
+        towards = (
+            math.cos(elevation) * math.sin(azimuth),
+            math.sin(elevation),
+            -math.cos(elevation) * math.cos(azimuth),
+        )
         right = unit(cross(towards, (0, 1, 0)))
         up = cross(right, towards)
         centre = mul(towards, RADIUS * 0.985)
         warm = dice.random()
         glow = 0.22 + 0.78 * magnitude
-        colour = mul(mix((0.72, 0.85, 1.0), (1.0, 0.86, 0.68), warm ** 2), glow)
+        colour = mul(mix((0.72, 0.85, 1.0), (1.0, 0.86, 0.68), warm**2), glow)
         corners = [add(centre, mul(d, size)) for d in (mul(right, -1), mul(up, -1), right, up)]
         mesh.face(corners, colour)
     return mesh

@@ -1,8 +1,9 @@
-"""A coarse solid model of a room: which 5 cm cells are filled, and how much light gets past them."""
+"""A coarse solid model of a room: which 5 cm cells are filled, and how much light gets past them.
+"""
 
 import math
 
-from mesh import add, cross, dot, mul, sub, unit
+from mesh import add, cross, mul, unit
 
 CELL = 0.05
 
@@ -43,7 +44,9 @@ class Voxels:
         return False
 
     def openness(self, point, normal, rays, reach):
-        """Share of the hemisphere that is free within `reach` metres, cosine-weighted; rays in tangent space."""
+        """Share of the hemisphere that is free within `reach` metres, cosine-weighted; rays in
+        tangent space.
+        """
         side = unit(cross(normal, (0.31, 0.87, 0.38)))
         other = cross(normal, side)
         start = add(point, mul(normal, CELL * 1.1))
