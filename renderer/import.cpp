@@ -80,15 +80,16 @@ std::string loader_of(const aiScene& source) {
   return known ? name.C_Str() : "";
 }
 
-/// Triangulation trusts this flag: Debian's Assimp aborts where a loader claims polygons that are
-/// not there. The scene is the importer's own; Assimp hands it out as const only.
+/// Triangulation trusts these flags: Debian's Assimp aborts where a loader claims polygons that are
+/// not there, or nothing. The scene is the importer's own; Assimp hands it out as const only.
 void correct_primitive_types(const aiScene& source) {
   for (unsigned m = 0; m < source.mNumMeshes; ++m) {
     aiMesh& mesh = *source.mMeshes[m];
     const std::span<const aiFace> faces(mesh.mFaces, mesh.mNumFaces);
     constexpr auto is_polygon = [](const aiFace& face) { return face.mNumIndices > 3; };
     mesh.mPrimitiveTypes &= ~static_cast<unsigned>(aiPrimitiveType_POLYGON);
-    if (std::ranges::any_of(faces, is_polygon)) mesh.mPrimitiveTypes |= aiPrimitiveType_POLYGON;
+    mesh.mPrimitiveTypes |=
+        std::ranges::any_of(faces, is_polygon) ? aiPrimitiveType_POLYGON : aiPrimitiveType_TRIANGLE;
   }
 }
 

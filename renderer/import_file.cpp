@@ -101,6 +101,54 @@ void check_format(const std::string& file) {
                  std::string("convert it; ") + kCommonFormats});
 }
 
+std::uintmax_t size_of(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t bytes = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
+  return error ? 0 : bytes;
+}
+
+bool is_ply_type(const std::string& word) {
+  return one_of(word, {"char", "uchar", "short", "ushort", "int", "uint", "float", "double", "int8",
+                       "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"});
+}
+
+/// One line of a PLY header (Turk, "The PLY Polygon File Format", 1994) as it must be. Before the
+/// first element, writers put all sorts of remarks.
+bool good_ply_line(const std::string& line, std::uintmax_t file_bytes, bool in_elements) {
+  std::istringstream words(line);
+  std::string keyword, first, second, third;
+  words >> keyword >> first >> second >> third;
+  if (keyword == "element") {
+    std::uintmax_t count = 0;
+    return std::istringstream(second) >> count && count <= file_bytes;
+  }
+  if (keyword != "property") return !in_elements || one_of(keyword, {"", "comment", "obj_info"});
+  if (first == "list") return in_elements && is_ply_type(second) && is_ply_type(third);
+  return in_elements && is_ply_type(first) && !second.empty();
+}
+
+/// Assimp 5.2's PLY loader crashes or never ends where the header is damaged or cut off.
+void check_ply_header(const std::string& file) {
+  constexpr std::size_t enough_bytes = 1 << 20;
+  const std::uintmax_t file_bytes = size_of(file);
+  std::string head(std::min<std::uintmax_t>(file_bytes, enough_bytes), '\0');
+  std::ifstream(file, std::ios::binary)
+      .read(head.data(), static_cast<std::streamsize>(head.size()));
+  std::istringstream stream(head);
+  bool in_elements = false;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    if (line == "end_header") return;
+    in_elements = in_elements || line.starts_with("element");
+    if (number == 1 ? line != "ply" : !good_ply_line(line, file_bytes, in_elements))
+      throw Error({"line " + std::to_string(number) +
+                       " of its header is damaged or claims more than the file holds",
+                   file, "copy or export the model once more"});
+  }
+  throw Error({"its header has no end", file, "copy or export the model once more"});
+}
+
 constexpr std::uintmax_t kFixedPart = std::uintmax_t{2} << 30;
 /// Compressed text (Collada in a .zae) grows most: ten times unpacked, twenty times as a tree.
 constexpr std::uintmax_t kPerByte = 100;
@@ -132,12 +180,6 @@ std::uintmax_t free_bytes() {
   for (std::uintmax_t kibibytes = 0; meminfo >> name >> kibibytes; std::getline(meminfo, unit))
     if (name == "MemAvailable:") return kibibytes * 1024;
   return std::numeric_limits<std::uintmax_t>::max();
-}
-
-std::uintmax_t size_of(const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t bytes = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
-  return error ? 0 : bytes;
 }
 
 std::uintmax_t model_bytes(const std::string& model_file) {
@@ -172,6 +214,7 @@ void check_model_file(const std::string& file, std::uintmax_t max_bytes) {
   check_format(file);
   check_size(file, max_bytes);
   check_readable(file);
+  if (lower_extension(file) == ".ply") check_ply_header(file);
 }
 
 MemoryBudget::MemoryBudget(std::uintmax_t bytes) : alone_(budget_mutex()) {
