@@ -10,7 +10,7 @@ from mesh import Mesh, add, cross, mix, mul, placed, quaternion, smoothstep
 from noise import fbm
 
 PERIOD = 60.0
-CENTRE = (0.0, 0.06, -0.10)  # in wall
+CENTRE = (0.0, 0.06, -0.22)  # in wall
 BRASS = (0.88, 0.56, 0.22)
 COPPER = (0.80, 0.36, 0.17)
 SILVER = (0.72, 0.78, 0.84)
