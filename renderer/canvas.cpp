@@ -8,8 +8,6 @@
 namespace vindu {
 namespace {
 
-constexpr int kSamples = 4;
-
 GLenum colour_format(Style style) { return style == Style::lit ? GL_SRGB8_ALPHA8 : GL_RGBA8; }
 
 void check_complete(GLuint framebuffer, SizePx size) {
@@ -57,15 +55,15 @@ Image Picture::read(int x, int y, SizePx size) const {
   return image;
 }
 
-Canvas::Canvas(SizePx size, Style style)
+Canvas::Canvas(SizePx size, const Look& look)
     : size_(size),
-      style_(style),
+      look_(look),
       colour_(gl::make_renderbuffer()),
       depth_(gl::make_renderbuffer()),
       framebuffer_(gl::make_framebuffer()) {
-  const int samples = style == Style::lit ? kSamples : 0;
-  glNamedRenderbufferStorageMultisample(colour_.name(), samples, colour_format(style), size.width,
-                                        size.height);
+  const int samples = look.style == Style::lit && look.samples > 1 ? look.samples : 0;
+  glNamedRenderbufferStorageMultisample(colour_.name(), samples, colour_format(look.style),
+                                        size.width, size.height);
   glNamedRenderbufferStorageMultisample(depth_.name(), samples, GL_DEPTH_COMPONENT32F, size.width,
                                         size.height);
   glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
@@ -78,7 +76,7 @@ Canvas::Canvas(SizePx size, Style style)
 void Canvas::begin() {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, size_.width, size_.height);
-  (style_ == Style::lit ? glEnable : glDisable)(GL_FRAMEBUFFER_SRGB);
+  (look_.style == Style::lit ? glEnable : glDisable)(GL_FRAMEBUFFER_SRGB);
   const float black[] = {0, 0, 0, 1}, infinitely_far = 0;
   glDepthMask(GL_TRUE);
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, black);
@@ -86,7 +84,8 @@ void Canvas::begin() {
 }
 
 void Canvas::resolve(Picture& picture, int x, int y) const {
-  (style_ == Style::lit ? glEnable : glDisable)(GL_FRAMEBUFFER_SRGB);  // averages light, not bytes
+  (look_.style == Style::lit ? glEnable
+                             : glDisable)(GL_FRAMEBUFFER_SRGB);  // averages light, not bytes
   glBlitNamedFramebuffer(framebuffer_.name(), picture.framebuffer(), 0, 0, size_.width,
                          size_.height, x, y, x + size_.width, y + size_.height, GL_COLOR_BUFFER_BIT,
                          GL_NEAREST);

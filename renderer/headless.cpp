@@ -26,7 +26,8 @@ std::vector<EGLDeviceEXT> list_devices() {
   std::array<EGLDeviceEXT, 32> devices{};
   EGLint count = 0;
   if (!eglQueryDevicesEXT(devices.size(), devices.data(), &count)) return {};
-  return {devices.begin(), devices.begin() + count};
+  // No braces: an EGLDeviceEXT is a void*, and so the iterators would become the two elements.
+  return std::vector<EGLDeviceEXT>(devices.begin(), devices.begin() + count);
 }
 
 EGLDisplay device_display(int index) {
@@ -65,7 +66,8 @@ class HeadlessSurface final : public Surface {
   HeadlessSurface(const HeadlessSurface&) = delete;
   HeadlessSurface& operator=(const HeadlessSurface&) = delete;
   ~HeadlessSurface() override {
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (eglGetCurrentContext() == context_)  // else another surface has become current
+      eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
     eglTerminate(display_);
   }
@@ -88,6 +90,11 @@ std::unique_ptr<Surface> make_headless_surface(const HeadlessOptions& options) {
 std::string gl_description() {
   const auto text = [](GLenum name) { return reinterpret_cast<const char*>(glGetString(name)); };
   return std::string(text(GL_RENDERER)) + ", OpenGL " + text(GL_VERSION);
+}
+
+bool draws_in_software() {
+  const std::string description = gl_description();
+  return description.starts_with("llvmpipe") || description.starts_with("softpipe");
 }
 
 }  // namespace vindu
