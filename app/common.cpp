@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "renderer/chunks.h"
 #include "renderer/import.h"
 #include "renderer/resources.h"
 
@@ -74,6 +75,7 @@ LoadedScene load_scene(const std::string& model, std::optional<Placement> placem
   ImportResult imported = import_scene(file);
   for (const std::string& warning : imported.warnings) log_warning(imported.scene.name, warning);
   log_debug(imported.scene.name, std::to_string(imported.scene.triangle_count()) + " triangles");
+  cut_into_chunks(imported.scene);
   const Placement wanted = model.empty() ? site.scene.place : Placement::fit;
   return place(std::move(imported.scene), placement.value_or(show ? Placement::as_is : wanted),
                site.wall);

@@ -58,7 +58,7 @@ int render(const RenderOptions& options) {
   make_folder(options.out);
   const auto surface = make_headless_surface({.device = options.device});
   log_debug("render", gl_description());
-  WallRenderer wall(site.wall, options.scale, options.unlit ? Style::unlit : Style::lit);
+  WallRenderer wall(site.wall, options.scale, Look{options.unlit ? Style::unlit : Style::lit});
   wall.show(loaded.scene);
   FrameState state{.eye_in_wall = options.eye.value_or(site.viewer.default_eye_in_wall),
                    .navigation = loaded.navigation,

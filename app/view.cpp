@@ -129,7 +129,7 @@ class Viewer {
     if (size.width < 1 || size.height < 1) return 0;  // minimised
     if (mount.rotate_deg % 180 == 90) std::swap(size.width, size.height);
     if (!canvas_ || canvas_->size() != size) {
-      canvas_ = std::make_unique<Canvas>(size, Style::lit);
+      canvas_ = std::make_unique<Canvas>(size, Look{});
       picture_ = std::make_unique<Picture>(size, Style::lit);
     }
     const auto view = tile_view(content_corners(site_.wall, window_), state.eye_in_wall);
@@ -190,7 +190,7 @@ int view_as_picture(const ViewOptions& options) {
   Shown shown = load_shown(options.model, options, site, site.wall.tiles.front().corners);
   shown.scene.pose(matrix_of(shown.navigation.wall_from_scene, shown.navigation.scale), 0);
   const SceneRenderer renderer(Style::lit);
-  Canvas canvas(kPicture, Style::lit);
+  Canvas canvas(kPicture, Look{});
   Picture picture(kPicture, Style::lit);
   const Vec3 eye = options.eye.value_or(site.viewer.default_eye_in_wall);
   const auto view = tile_view(site.wall.tiles.front().corners, eye);

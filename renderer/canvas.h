@@ -15,8 +15,13 @@ struct SizePx {
 };
 
 enum class Style {
-  lit,    ///< light, tone curve, sRGB, 4 samples a pixel
+  lit,    ///< light, tone curve, sRGB
   unlit,  ///< base colours as they are: no light, tone, sRGB or multisampling; for measuring
+};
+
+struct Look {
+  Style style = Style::lit;
+  int samples = 4;  ///< a pixel, where light is drawn; 1 is much cheaper on a CPU
 };
 
 /// A texture; row 0 is the bottom, as OpenGL counts. Bound to the render thread.
@@ -44,7 +49,7 @@ class Picture {
 class Canvas {
  public:
   /// Throws Error when the GPU cannot make one of this size.
-  Canvas(SizePx size, Style style);
+  Canvas(SizePx size, const Look& look);
 
   SizePx size() const { return size_; }
   /// Makes it the target of what is drawn next, cleared to black and infinitely far.
@@ -54,7 +59,7 @@ class Canvas {
 
  private:
   SizePx size_;
-  Style style_;
+  Look look_;
   gl::Renderbuffer colour_;
   gl::Renderbuffer depth_;
   gl::Framebuffer framebuffer_;

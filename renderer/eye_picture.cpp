@@ -3,7 +3,7 @@
 namespace vindu {
 
 Image picture_from_eye(WallRenderer& wall, const Vec3& eye_in_wall, SizePx size) {
-  Canvas canvas(size, wall.renderer().style());
+  Canvas canvas(size, Look{wall.renderer().style()});
   Picture picture(size, wall.renderer().style());
   wall.picture().make_mipmaps();
   const double aspect = static_cast<double>(size.width) / size.height;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <glm/glm.hpp>
 
 #include "core/error.h"
@@ -12,7 +13,11 @@
 namespace vindu {
 namespace {
 
-/// As shaders/scene_data.glsl declares them (std430).
+/// Uniform blocks are bound by ranges, whose offsets must be multiples of at most 256 bytes
+/// (OpenGL 4.5, table 23.70).
+constexpr GLintptr kBlockBytes = 256;
+
+/// As shaders/scene.vert and scene.frag declare them (std140).
 struct GpuMaterial {
   glm::vec4 base_colour;
   glm::vec4 emissive_metallic;
@@ -22,10 +27,7 @@ struct GpuNode {
   glm::mat4 world_from_node;
   glm::mat4 normal_from_node;
 };
-struct GpuDraw {
-  std::uint32_t node;
-  std::uint32_t material;
-};
+static_assert(sizeof(GpuMaterial) <= kBlockBytes && sizeof(GpuNode) <= kBlockBytes);
 
 GpuMaterial gpu_material(const Material& material) {
   const float cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
@@ -34,6 +36,14 @@ GpuMaterial gpu_material(const Material& material) {
           {material.emissive.x(), material.emissive.y(), material.emissive.z(), material.metallic},
           {material.roughness, cutoff, material.unlit ? 1.0f : 0.0f,
            material.base_colour_texture >= 0 ? 1.0f : 0.0f}};
+}
+
+/// The box around a moved box: its middle moves, its half size by the absolute matrix (J. Arvo,
+/// Graphics Gems, 1990).
+Box3f moved(const Box3f& box, const Eigen::Matrix4f& matrix) {
+  const Eigen::Vector3f middle = (matrix * box.center().homogeneous()).head<3>();
+  const Eigen::Vector3f half = 0.5f * matrix.topLeftCorner<3, 3>().cwiseAbs() * box.sizes();
+  return {middle - half, middle + half};
 }
 
 gl::Texture upload_texture(const Image& image, Style style) {
@@ -65,7 +75,7 @@ GpuScene::GpuScene(const Scene& scene, Style style) : triangle_count_(scene.tria
   upload_geometry(scene);
   upload_materials(scene);
   upload_textures(scene, style);
-  nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * sizeof(GpuNode), GL_DYNAMIC_STORAGE_BIT);
+  nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * kBlockBytes, GL_DYNAMIC_STORAGE_BIT);
   check_memory(scene.name);
   pose(Mat4::Identity(), 0);
 }
@@ -86,32 +96,27 @@ void GpuScene::list_draws(const Scene& scene) {
 void GpuScene::upload_geometry(const Scene& scene) {
   vertices_ = gl::make_buffer(scene.vertices.data(), scene.vertices.size() * sizeof(Vertex));
   indices_ = gl::make_buffer(scene.indices.data(), scene.indices.size() * sizeof(std::uint32_t));
-  std::vector<GpuDraw> data;
-  for (const Draw& draw : draws_)
-    data.push_back(
-        {static_cast<std::uint32_t>(draw.node), static_cast<std::uint32_t>(draw.mesh.material)});
-  draw_data_ = gl::make_buffer(data.data(), data.size() * sizeof(GpuDraw));
   vertex_array_ = gl::make_vertex_array();
   const GLuint array = vertex_array_.name();
   glVertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(Vertex));
-  glVertexArrayVertexBuffer(array, 1, draw_data_.name(), 0, sizeof(GpuDraw));
-  glVertexArrayBindingDivisor(array, 1, 1);
   glVertexArrayElementBuffer(array, indices_.name());
   glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position_in_node));
   glVertexArrayAttribFormat(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal_in_node));
   glVertexArrayAttribFormat(array, 2, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
   glVertexArrayAttribFormat(array, 3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, colour));
-  glVertexArrayAttribIFormat(array, 4, 2, GL_UNSIGNED_INT, 0);
-  for (GLuint attribute = 0; attribute < 5; ++attribute) {
+  for (GLuint attribute = 0; attribute < 4; ++attribute) {
     glEnableVertexArrayAttrib(array, attribute);
-    glVertexArrayAttribBinding(array, attribute, attribute == 4 ? 1 : 0);
+    glVertexArrayAttribBinding(array, attribute, 0);
   }
 }
 
 void GpuScene::upload_materials(const Scene& scene) {
-  std::vector<GpuMaterial> materials;
-  for (const Material& material : scene.materials) materials.push_back(gpu_material(material));
-  materials_ = gl::make_buffer(materials.data(), materials.size() * sizeof(GpuMaterial));
+  std::vector<std::byte> blocks(scene.materials.size() * kBlockBytes);
+  for (std::size_t index = 0; index < scene.materials.size(); ++index) {
+    const GpuMaterial material = gpu_material(scene.materials[index]);
+    std::memcpy(&blocks[index * kBlockBytes], &material, sizeof(material));
+  }
+  materials_ = gl::make_buffer(blocks.data(), blocks.size());
 }
 
 void GpuScene::upload_textures(const Scene& scene, Style style) {
@@ -120,44 +125,34 @@ void GpuScene::upload_textures(const Scene& scene, Style style) {
 }
 
 void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s) {
-  world_from_node_ = node_transforms(skeleton_, animation_time_s);
-  mirrored_.resize(world_from_node_.size());
-  std::vector<GpuNode> data(world_from_node_.size());
-  for (std::size_t node = 0; node < data.size(); ++node) {
-    const Mat4 world_from_node = world_from_scene * world_from_node_[node].cast<double>();
-    world_from_node_[node] = world_from_node.cast<float>();
+  std::vector<Eigen::Matrix4f> world_from_nodes = node_transforms(skeleton_, animation_time_s);
+  mirrored_.resize(world_from_nodes.size());
+  std::vector<std::byte> blocks(world_from_nodes.size() * kBlockBytes);
+  for (std::size_t node = 0; node < world_from_nodes.size(); ++node) {
+    const Mat4 world_from_node = world_from_scene * world_from_nodes[node].cast<double>();
+    world_from_nodes[node] = world_from_node.cast<float>();
     const Mat3 linear = world_from_node.topLeftCorner<3, 3>();
     const double determinant = linear.determinant();
     mirrored_[node] = determinant < 0;
     // Normals turn with the inverse transpose; a node flattened to nothing keeps any.
     Mat4 normal = Mat4::Identity();
     if (determinant != 0) normal.topLeftCorner<3, 3>() = linear.inverse().transpose();
-    data[node] = {gl::mat4_from(world_from_node), gl::mat4_from(normal)};
+    const GpuNode block{gl::mat4_from(world_from_node), gl::mat4_from(normal)};
+    std::memcpy(&blocks[node * kBlockBytes], &block, sizeof(block));
   }
-  glNamedBufferSubData(nodes_.name(), 0, static_cast<GLsizeiptr>(data.size() * sizeof(GpuNode)),
-                       data.data());
+  glNamedBufferSubData(nodes_.name(), 0, static_cast<GLsizeiptr>(blocks.size()), blocks.data());
+  bounds_in_world_.clear();
+  for (const Draw& draw : draws_)
+    bounds_in_world_.push_back(moved(draw.mesh.bounds_in_node, world_from_nodes[draw.node]));
 }
 
-Box3f GpuScene::bounds_in_world() const {
-  Box3f bounds;
-  for (const Draw& draw : draws_) {
-    const Box3f box = draw.mesh.bounds_in_node;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3f point = box.corner(static_cast<Box3f::CornerType>(corner));
-      bounds.extend((world_from_node_[draw.node] * point.homogeneous()).head<3>());
-    }
-  }
-  return bounds;
-}
+void GpuScene::bind() const { glBindVertexArray(vertex_array_.name()); }
 
-void GpuScene::bind() const {
-  glBindVertexArray(vertex_array_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, nodes_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, materials_.name());
-}
-
-void GpuScene::bind_texture(int texture) const {
-  glBindTextureUnit(0, texture < 0 ? white_.name() : textures_[texture].name());
+void GpuScene::bind(const Draw& draw) const {
+  glBindBufferRange(GL_UNIFORM_BUFFER, 0, nodes_.name(), draw.node * kBlockBytes, sizeof(GpuNode));
+  glBindBufferRange(GL_UNIFORM_BUFFER, 1, materials_.name(), draw.mesh.material * kBlockBytes,
+                    sizeof(GpuMaterial));
+  glBindTextureUnit(0, draw.texture < 0 ? white_.name() : textures_[draw.texture].name());
 }
 
 }  // namespace vindu

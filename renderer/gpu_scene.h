@@ -20,8 +20,6 @@ class GpuScene {
   /// Once a frame, before any view is drawn: where the scene stands, and its animation's time.
   void pose(const Mat4& world_from_scene, double animation_time_s);
 
-  /// Of what is posed, in world.
-  Box3f bounds_in_world() const;
   std::size_t triangle_count() const { return triangle_count_; }
 
   /// One mesh at one node: what the renderer walks over.
@@ -33,11 +31,15 @@ class GpuScene {
     int texture = -1;
   };
   const std::vector<Draw>& draws() const { return draws_; }  ///< opaque, then masked, then blended
-  const Eigen::Matrix4f& world_from_node(int node) const { return world_from_node_[node]; }
+  /// Around the draw's mesh as it is posed.
+  const Box3f& bounds_in_world(const Draw& draw) const {
+    return bounds_in_world_[&draw - draws_.data()];
+  }
   bool mirrored(int node) const { return mirrored_[node]; }
-  /// Binds vertex array, materials and nodes for drawing.
+  /// Before the draws of this scene.
   void bind() const;
-  void bind_texture(int texture) const;
+  /// Before one draw: its node, material and texture.
+  void bind(const Draw& draw) const;
 
  private:
   void upload_geometry(const Scene& scene);
@@ -48,13 +50,12 @@ class GpuScene {
   Scene skeleton_;  // nodes and animations
   std::size_t triangle_count_ = 0;
   std::vector<Draw> draws_;
-  std::vector<Eigen::Matrix4f> world_from_node_;
+  std::vector<Box3f> bounds_in_world_;  // of each draw
   std::vector<bool> mirrored_;
   gl::Buffer vertices_;
   gl::Buffer indices_;
-  gl::Buffer draw_data_;  // node and material of each draw, read once an instance
-  gl::Buffer materials_;
-  gl::Buffer nodes_;
+  gl::Buffer materials_;  // uniform blocks, kBlockBytes apart
+  gl::Buffer nodes_;      // the same
   gl::VertexArray vertex_array_;
   std::vector<gl::Texture> textures_;
   gl::Texture white_;

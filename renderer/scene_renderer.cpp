@@ -11,11 +11,11 @@ namespace {
 /// Nothing of the box is inside the view: all eight corners lie outside one of its planes. In clip
 /// space each plane is a half-space of the world also for corners behind the eye, so the test holds
 /// for any off-axis frustum.
-bool outside(const Mat4& clip_from_node, const Box3f& box) {
+bool outside(const Mat4& clip_from_world, const Box3f& box) {
   bool left = true, right = true, below = true, above = true, before = true;
   for (int index = 0; index < 8; ++index) {
     const Vec3 corner = box.corner(static_cast<Box3f::CornerType>(index)).cast<double>();
-    const Vec4 clip = clip_from_node * corner.homogeneous();
+    const Vec4 clip = clip_from_world * corner.homogeneous();
     left &= clip.x() < -clip.w();
     right &= clip.x() > clip.w();
     below &= clip.y() < -clip.w();
@@ -25,27 +25,22 @@ bool outside(const Mat4& clip_from_node, const Box3f& box) {
   return left || right || below || above || before;
 }
 
-/// Farthest first; the eye decides, so that all tiles agree.
-std::vector<const GpuScene::Draw*> blended_draws(const GpuScene& scene, const Vec3& eye_in_world) {
+/// The draws of one kind, by distance from the eye: blended ones farthest first, by their middle,
+/// so that what is behind shines through; solid ones nearest first, by their nearest point, so that
+/// little is drawn twice. The eye decides, not the tile: neighbours agree.
+std::vector<const GpuScene::Draw*> sorted_draws(const GpuScene& scene, const Vec3& eye_in_world,
+                                                bool blended) {
   std::vector<std::pair<double, const GpuScene::Draw*>> found;
   for (const GpuScene::Draw& draw : scene.draws()) {
-    if (draw.alpha_mode != AlphaMode::blend) continue;
-    const Eigen::Vector3f middle = draw.mesh.bounds_in_node.center();
-    const Eigen::Vector3f place =
-        (scene.world_from_node(draw.node) * middle.homogeneous()).head<3>();
-    found.emplace_back((place.cast<double>() - eye_in_world).norm(), &draw);
+    if ((draw.alpha_mode == AlphaMode::blend) != blended) continue;
+    const Box3f box = scene.bounds_in_world(draw);
+    const Eigen::Vector3f eye = eye_in_world.cast<float>();
+    found.emplace_back(blended ? -(box.center() - eye).norm() : box.exteriorDistance(eye), &draw);
   }
-  std::ranges::stable_sort(found, std::greater{}, &std::pair<double, const GpuScene::Draw*>::first);
+  std::ranges::stable_sort(found, {}, &std::pair<double, const GpuScene::Draw*>::first);
   std::vector<const GpuScene::Draw*> sorted;
   for (const auto& [distance, draw] : found) sorted.push_back(draw);
   return sorted;
-}
-
-std::vector<const GpuScene::Draw*> solid_draws(const GpuScene& scene) {
-  std::vector<const GpuScene::Draw*> found;
-  for (const GpuScene::Draw& draw : scene.draws())
-    if (draw.alpha_mode != AlphaMode::blend) found.push_back(&draw);
-  return found;
 }
 
 }  // namespace
@@ -95,23 +90,18 @@ void SceneRenderer::draw_scene(const View& view, const GpuScene& scene, bool ble
   scene_program_.set("clip_from_world", gl::mat4_from(view.clip_from_world));
   scene_program_.set("eye_in_world", gl::vec3_from(view.eye_in_world));
   scene.bind();
-  const auto draws = blended ? blended_draws(scene, view.eye_in_world) : solid_draws(scene);
-  for (const GpuScene::Draw* draw : draws) {
+  for (const GpuScene::Draw* draw : sorted_draws(scene, view.eye_in_world, blended)) {
     ++count.draws;
-    const Mat4 clip_from_node =
-        view.clip_from_world * scene.world_from_node(draw->node).cast<double>();
-    if (outside(clip_from_node, draw->mesh.bounds_in_node)) {
+    if (outside(view.clip_from_world, scene.bounds_in_world(*draw))) {
       ++count.culled;
       continue;
     }
-    scene.bind_texture(draw->texture);
+    scene.bind(*draw);
     (draw->double_sided ? glDisable : glEnable)(GL_CULL_FACE);
     glFrontFace(scene.mirrored(draw->node) ? GL_CW : GL_CCW);
     const auto offset = static_cast<std::uintptr_t>(draw->mesh.first_index) * sizeof(std::uint32_t);
-    const auto instance = static_cast<GLuint>(draw - scene.draws().data());
-    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(draw->mesh.index_count),
-                                        GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), 1,
-                                        instance);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(draw->mesh.index_count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(offset));
   }
 }
 

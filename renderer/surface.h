@@ -36,6 +36,9 @@ std::unique_ptr<Surface> make_headless_surface(const HeadlessOptions& options = 
 /// context.
 std::string gl_description();
 
+/// Whether the current context draws on the CPU (Mesa's llvmpipe and softpipe).
+bool draws_in_software();
+
 struct WindowOptions {
   SizePx size = {1280, 720};
   std::string title = "Vindu";

@@ -36,11 +36,12 @@ WallLayout layout_of(const Wall& wall, double scale) {
   return layout;
 }
 
-WallRenderer::WallRenderer(const Wall& wall, double scale, Style style)
+WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look)
     : wall_(wall),
+      look_(look),
       layout_(layout_of(wall, scale)),
-      renderer_(style),
-      picture_(std::make_unique<Picture>(layout_.size, style)) {
+      renderer_(look.style),
+      picture_(std::make_unique<Picture>(layout_.size, look.style)) {
   picture_->clear({0, 0, 0, 255});
 }
 
@@ -52,7 +53,7 @@ Canvas& WallRenderer::canvas_of(SizePx size) {
   const auto found =
       std::ranges::find_if(canvases_, [&](const auto& canvas) { return canvas->size() == size; });
   if (found != canvases_.end()) return **found;
-  return *canvases_.emplace_back(std::make_unique<Canvas>(size, renderer_.style()));
+  return *canvases_.emplace_back(std::make_unique<Canvas>(size, look_));
 }
 
 WallFrame WallRenderer::draw(const FrameState& state, const Tile* only) {

@@ -36,7 +36,7 @@ struct WallFrame {
 class WallRenderer {
  public:
   /// Throws Error when the picture is too large for this GPU.
-  WallRenderer(const Wall& wall, double scale, Style style);
+  WallRenderer(const Wall& wall, double scale, const Look& look);
 
   /// Replaces the scene; when that throws, the old one stays.
   void show(const Scene& scene);
@@ -60,6 +60,7 @@ class WallRenderer {
   Canvas& canvas_of(SizePx size);
 
   Wall wall_;
+  Look look_;
   WallLayout layout_;
   SceneRenderer renderer_;
   std::unique_ptr<Picture> picture_;

@@ -1,14 +1,18 @@
 // Surfaces. In: world position and normal, material. Out: linear light after the tone curve (the framebuffer encodes
 // sRGB), or with MEASURE the base colour's bytes as they are, by a shader that takes no derivatives.
-#include "scene_data.glsl"
 #include "environment.glsl"
 
 layout(location = 0) in vec3 position_in_world;
 layout(location = 1) in vec3 normal_in_world;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
-layout(location = 4) flat in uint material_index;
 
+layout(std140, binding = 1) uniform Material {
+  vec4 base_colour;             // linear
+  vec4 emissive_metallic;       // rgb, metallic
+  vec4 roughness_cutoff_unlit;  // roughness, alpha cutoff (negative: none), unlit, has a texture
+}
+material;
 layout(binding = 0) uniform sampler2D base_colour_texture;
 uniform vec3 eye_in_world;
 
@@ -42,7 +46,6 @@ vec3 environment_light(vec3 n, vec3 v, vec3 albedo, vec3 f0, float roughness) {
 }
 
 void main() {
-  Material material = materials[material_index];
 #ifdef MEASURE
   vec4 texel = textureLod(base_colour_texture, uv, 0.0);
 #else

@@ -16,7 +16,7 @@ GpuScene load(const char* asset) {
 
 RoomView::RoomView(const Site& site, SizePx size)
     : site_(site),
-      canvas_(size, Style::lit),
+      canvas_(size, Look{}),
       picture_(size, Style::lit),
       lab_(load("lab/lab.glb")),
       head_(load("lab/head.glb")),

@@ -83,7 +83,7 @@ class ClosedLoop : public testing::Test {
   static Displacements compare(const Wall& drawn, const Vec3& drawn_eye, const Wall& true_wall,
                                const Vec3& true_eye, int every = 1) {
     const Scene& code = true_eye.z() < 1 ? *coarse_code_ : *fine_code_;
-    WallRenderer renderer(drawn, 1, Style::unlit);
+    WallRenderer renderer(drawn, 1, {Style::unlit});
     renderer.show(code);
     const WallFrame frame = renderer.draw({.eye_in_wall = drawn_eye});
     EXPECT_TRUE(frame.black_tiles.empty());

@@ -85,7 +85,7 @@ Levels reference_of_tile(const Tile& tile, const Vec3& eye_in_wall, const SceneR
                          const GpuScene& scene) {
   const std::array<Vec3, 4> corners = corners_of(tile.corners);
   const glm::dmat4 clip_from_wall = symmetric_camera(corners, eye_in_wall);
-  Canvas canvas({kReference_px, kReference_px}, renderer.style());
+  Canvas canvas({kReference_px, kReference_px}, Look{renderer.style()});
   Picture picture(canvas.size(), renderer.style());
   const GpuScene* scenes[] = {&scene};
   renderer.draw(view_with(clip_from_wall, eye_in_wall), scenes, {}, canvas);
