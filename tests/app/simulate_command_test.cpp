@@ -1,0 +1,86 @@
+// vindu simulate under the manual clock: two runs of one seed are bit-equal, and another seed is
+// another walk.
+#include "tests/app/process.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+class SimulateCommand : public AppTest {
+ protected:
+  ProcessResult simulate(const std::string& out, std::vector<std::string> more) const {
+    std::vector<std::string> words = {"simulate", "--clock",    "manual", "--seconds",
+                                      "0.5",      "--headless", "--json", "--scale",
+                                      "0.03",     "--out",      path(out)};
+    words.insert(words.end(), more.begin(), more.end());
+    return vindu(words);
+  }
+  void expect_equal_pictures(const std::string& a, const std::string& b) const {
+    ASSERT_THAT(files_in(a), ::testing::Contains("contact-sheet.png"));
+    ASSERT_EQ(files_in(a), files_in(b));
+    for (const std::string& name : files_in(a))
+      EXPECT_EQ(bytes_of(path(a + "/" + name)) == bytes_of(path(b + "/" + name)), true) << name;
+  }
+};
+
+/// What the JSON says of one row, as text.
+std::string figures_of(const std::string& json, const std::string& key) {
+  const std::size_t at = json.find("\"" + key + "\"");
+  return at == std::string::npos ? "" : json.substr(at, json.find('}', at) - at);
+}
+
+TEST_F(SimulateCommand, IsBitEqualOnAPath) {
+  const ProcessResult once = simulate("a", {"--mode", "loop"});
+  const ProcessResult again = simulate("b", {"--mode", "loop"});
+  ASSERT_EQ(once.exit_code, 0) << once.err;
+  EXPECT_THAT(once.out, ContainsRegex("\"frames\": (29|30),"));
+  EXPECT_EQ(lines_of(once.out).back(), lines_of(again.out).back());
+  expect_equal_pictures("a", "b");
+}
+
+TEST_F(SimulateCommand, IsBitEqualWhenTrackedWithOneSeedAndDiffersWithAnother) {
+  const ProcessResult once = simulate("a", {"--mode", "track", "--seed", "5"});
+  const ProcessResult again = simulate("b", {"--mode", "track", "--seed", "5"});
+  const ProcessResult other = simulate("c", {"--mode", "track", "--seed", "6"});
+  ASSERT_EQ(once.exit_code, 0) << once.err;
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_EQ(lines_of(once.out).back(), lines_of(again.out).back());
+  expect_equal_pictures("a", "b");
+  ASSERT_THAT(figures_of(once.out, "eye_error_mm"), HasSubstr("mean"));
+  EXPECT_NE(figures_of(once.out, "eye_error_mm"), figures_of(other.out, "eye_error_mm"));
+}
+
+TEST_F(SimulateCommand, EndsWithATable) {
+  const ProcessResult result = vindu({"simulate", "--clock", "manual", "--seconds", "0.2",
+                                      "--scale", "0.03", "--out", path("out")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* row : {"frames in", "capture age", "draw all tiles", "report to photon",
+                          "eye error when the light leaves", "head found"})
+    EXPECT_THAT(result.out, HasSubstr(row));
+}
+
+TEST_F(SimulateCommand, IsWhatVinduDoesWithoutACommand) {
+  const ProcessResult result = vindu({"--quiet", "--help"});
+  EXPECT_THAT(result.out, HasSubstr("Without a sub-command: vindu simulate"));
+}
+
+TEST_F(SimulateCommand, RefusesToTrackWithoutCameras) {
+  const std::string wall = write("wall.toml", R"([wall]
+columns = 1
+rows = 1
+width_m = 2.0
+height_m = 0.5
+tile_width_px = 40
+tile_height_px = 20
+)");
+  const ProcessResult result = vindu({"simulate", "--wall", wall, "--out", path("out")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("[[camera]]"));
+  EXPECT_THAT(result.err, HasSubstr(wall));
+}
+
+}  // namespace
+}  // namespace vindu

@@ -1,0 +1,130 @@
+// Windows, on an X server without a screen: they open, draw for a while and end by themselves; and
+// what happens where there is no display.
+#include "renderer/image.h"
+#include "tests/app/process.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+class Windows : public AppTest {
+ protected:
+  void SetUp() override { ASSERT_NE(display_.name(), "") << "Xvfb does not start"; }
+  VirtualDisplay display_;
+};
+
+class ViewEyes : public Windows, public ::testing::WithParamInterface<std::vector<std::string>> {};
+
+TEST_P(ViewEyes, MoveInAWindowThatEndsByItself) {
+  std::vector<std::string> words = {"view", small_model(), "--seconds", "1"};
+  words.insert(words.end(), GetParam().begin(), GetParam().end());
+  const ProcessResult result = vindu(words, display_.environment());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("frames in"), HasSubstr("1280x720"), HasSubstr("draw all tiles")));
+  EXPECT_THAT(result.out, Not(HasSubstr("\n0 frames")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Windows, ViewEyes,
+                         ::testing::Values(std::vector<std::string>{},
+                                           std::vector<std::string>{"--mouse"},
+                                           std::vector<std::string>{"--eye", "-0.2,0.1,0.6"},
+                                           std::vector<std::string>{"--path", VINDU_SOURCE_DIR
+                                                                    "/assets/paths/sweep.toml"}));
+
+TEST_F(Windows, CoverTheScreenWhenAskedTo) {
+  const ProcessResult result =
+      vindu({"view", small_model(), "--seconds", "1", "--fullscreen"}, display_.environment());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("1600x1000"));
+}
+
+TEST_F(Windows, DoubtASizeThatWasInventedAndSayHowToGiveIt) {
+  const ProcessResult doubted =
+      vindu({"view", small_model(), "--seconds", "0.2"}, display_.environment());
+  EXPECT_THAT(doubted.err, HasSubstr("--screen-mm"));
+  const ProcessResult typed =
+      vindu({"view", small_model(), "--seconds", "0.2", "--screen-mm", "527", "329"},
+            display_.environment());
+  EXPECT_EQ(typed.exit_code, 0);
+  EXPECT_THAT(typed.err, Not(HasSubstr("--screen-mm")));
+}
+
+TEST_F(Windows, ShowTheWholeChain) {
+  const ProcessResult result =
+      vindu({"simulate", "--seconds", "2", "--scale", "0.03", "--out", path("out")},
+            display_.environment());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("frames in"), HasSubstr("head found")));
+  EXPECT_THAT(files_in("out"), ::testing::Contains("contact-sheet.png"));
+}
+
+TEST_F(Windows, TrackWithTheCamerasOfAWallFile) {
+  const std::string wall = write("desk.toml", R"([wall]
+columns = 1
+rows = 1
+width_m = 0.6
+height_m = 0.34
+tile_width_px = 1600
+tile_height_px = 1000
+centre_height_m = 1.2
+
+[[camera]]
+name = "left"
+source = "emulated"
+position_m = [-0.6, 2.0, 3.0]
+look_at_m = [0, 1.3, 0.8]
+focal_px = 1335
+centre_px = [512, 384]
+
+[[camera]]
+name = "right"
+source = "emulated"
+position_m = [0.6, 2.0, 3.0]
+look_at_m = [0, 1.3, 0.8]
+focal_px = 1335
+centre_px = [512, 384]
+)");
+  const ProcessResult result = vindu(
+      {"view", small_model(), "--track", "--wall", wall, "--seconds", "1"}, display_.environment());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const ProcessResult without =
+      vindu({"view", small_model(), "--track", "--seconds", "1"}, display_.environment());
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_THAT(without.err, AllOf(HasSubstr("--track"), HasSubstr("--wall")));
+}
+
+using NoDisplay = AppTest;
+
+TEST_F(NoDisplay, LetsViewDrawAPictureInstead) {
+  const ProcessResult result =
+      vindu({"view", small_model(), "--eye", "0.1,0.1,0.5", "--out", path("out")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(files_in("out"), ElementsAre("view.png"));
+  EXPECT_EQ(read_png(path("out/view.png")).width_px, 1280);
+  EXPECT_THAT(result.err, HasSubstr("no display"));
+}
+
+TEST_F(NoDisplay, IsSaidForOneThatDoesNotAnswer) {
+  const ProcessResult result =
+      vindu({"view", small_model(), "--seconds", "1"}, {{"DISPLAY", ":9999"}});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(lines_of(result.err), SizeIs(1));
+  EXPECT_THAT(result.err, HasSubstr("display"));
+}
+
+TEST_F(NoDisplay, RefusesAnEyeBehindTheScreen) {
+  const ProcessResult result =
+      vindu({"view", small_model(), "--eye", "0,0,-1", "--out", path("out")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("--eye"));
+}
+
+}  // namespace
+}  // namespace vindu
