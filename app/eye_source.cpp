@@ -20,10 +20,7 @@ class PathEye final : public EyeSource {
   explicit PathEye(CameraPath path) : path_(std::move(path)) {}
   EyeNow at(Time now) override {
     if (!start_) start_ = now;
-    return {.eye_in_wall = path_.eye_at(seconds(now - *start_)),
-            .mode = Mode::loop,
-            .pose = {},
-            .solve = {}};
+    return {.eye_in_wall = path_.eye_at(seconds(now - *start_)), .mode = Mode::loop};
   }
 
  private:
@@ -35,7 +32,7 @@ class PersonEye final : public EyeSource {
  public:
   explicit PersonEye(const Person& person) : person_(person) {}
   EyeNow at(Time now) override {
-    return {.eye_in_wall = person_.eye_in_wall(now), .mode = Mode::track, .pose = {}, .solve = {}};
+    return {.eye_in_wall = person_.eye_in_wall(now), .mode = Mode::track};
   }
 
  private:
@@ -45,9 +42,7 @@ class PersonEye final : public EyeSource {
 class FixedEye final : public EyeSource {
  public:
   explicit FixedEye(const Vec3& eye_in_wall) : eye_in_wall_(eye_in_wall) {}
-  EyeNow at(Time) override {
-    return {.eye_in_wall = eye_in_wall_, .mode = Mode::track, .pose = {}, .solve = {}};
-  }
+  EyeNow at(Time) override { return {.eye_in_wall = eye_in_wall_, .mode = Mode::track}; }
 
  private:
   Vec3 eye_in_wall_;
@@ -65,7 +60,7 @@ class PointerEye final : public EyeSource {
     const Vec2 across = window_.pointer().cwiseProduct(half_size_m_);
     const Vec3 eye(across.x(), start_in_wall_.y() + across.y(),
                    start_in_wall_.z() * distance_factor_);
-    return {.eye_in_wall = eye, .mode = Mode::touch, .pose = {}, .solve = {}};
+    return {.eye_in_wall = eye, .mode = Mode::touch};
   }
 
  private:
@@ -95,9 +90,11 @@ EyeNow TrackedEye::at(Time now) {
   const std::optional<PoseSample> pose = tracker_.track(now);
   const bool known = pose && pose->level < TrackingLevel::held;
   const auto eye = known ? std::optional(tracker_.eye_in_wall(*pose)) : std::nullopt;
-  return {.eye_in_wall = ease_.update(eye, now),
+  const Vec3 shown = ease_.update(eye, now);
+  return {.eye_in_wall = shown,
           .mode = Mode::track,
           .pose = pose,
+          .tracked = eye && (shown - *eye).norm() < 1e-6,
           .solve = clock_.now() - begin};
 }
 

@@ -36,6 +36,7 @@ LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
                                  .animation_time_s = seconds(now - start),
                                  .mode = eye.mode},
                        .pose = eye.pose,
+                       .shows_the_tracked_eye = eye.tracked,
                        .capture_age = eye.pose ? now - eye.pose->capture_time : Duration{},
                        .solve = eye.solve};
     const Time drawing = clock.now();

@@ -60,7 +60,9 @@ std::vector<Row> latency_rows(const RunReport& report) {
 /// Eye that was drawn against the true one, when the frame's light leaves the wall, and when it was
 /// captured.
 std::vector<Row> error_rows(const RunReport& report) {
-  const auto seen = tracked_frames(report.loop.frames);
+  std::vector<FrameRecord> seen;
+  std::ranges::copy_if(report.loop.frames, std::back_inserter(seen),
+                       &FrameRecord::shows_the_tracked_eye);
   if (!report.truth || seen.empty()) return {};
   const auto at_photon = spread_over(seen, [&](const FrameRecord& frame) {
     return 1e3 *
@@ -72,6 +74,10 @@ std::vector<Row> error_rows(const RunReport& report) {
 int black_frames(const RunReport& report) {
   return static_cast<int>(std::ranges::count_if(
       report.loop.frames, [](const auto& frame) { return frame.black_tiles > 0; }));
+}
+
+std::ptrdiff_t led_frames(const RunReport& report) {
+  return std::ranges::count(report.loop.frames, false, &FrameRecord::shows_the_tracked_eye);
 }
 
 std::string row_text(const Row& row, const char* unit) {
@@ -119,6 +125,8 @@ std::string table_of(const RunReport& report) {
   for (const Row& row : latency_rows(report)) text += row_text(row, "ms");
   for (const Row& row : error_rows(report)) text += row_text(row, "mm");
   text += tracking_text(report);
+  if (report.tracker)
+    text += fmt::format("  {:<34}{} frames\n", "eye held or led back in", led_frames(report));
   if (const int black = black_frames(report))
     text += fmt::format("  {:<34}{} frames: the eye was behind a tile's plane\n", "black tiles in",
                         black);

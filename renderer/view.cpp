@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace vindu {
 namespace {
@@ -24,6 +25,28 @@ Axes axes_of(const Camera& camera) {
   return {forward, right, right.cross(forward)};
 }
 
+std::vector<Vec3> rays_to_corners(const Wall& wall, const Vec3& eye_in_wall) {
+  std::vector<Vec3> rays;
+  for (const Tile& tile : wall.tiles)
+    for (const Vec3& corner : {tile.corners.lower_left_in_wall, tile.corners.lower_right_in_wall,
+                               tile.corners.upper_left_in_wall, tile.corners.upper_right_in_wall()})
+      rays.push_back(corner - eye_in_wall);
+  return rays;
+}
+
+/// In the middle between the outermost rays, in azimuth about y and in elevation.
+Vec3 middle_direction(const std::vector<Vec3>& rays) {
+  const auto azimuth = [](const Vec3& ray) { return std::atan2(ray.x(), -ray.z()); };
+  const auto elevation = [](const Vec3& ray) {
+    return std::atan2(ray.y(), std::hypot(ray.x(), ray.z()));
+  };
+  const auto [left, right] = std::ranges::minmax(rays, {}, azimuth);
+  const auto [low, high] = std::ranges::minmax(rays, {}, elevation);
+  const double across = 0.5 * (azimuth(left) + azimuth(right));
+  const double along = 0.5 * (elevation(low) + elevation(high));
+  return {std::cos(along) * std::sin(across), std::sin(along), -std::cos(along) * std::cos(across)};
+}
+
 }  // namespace
 
 std::optional<View> tile_view(const TileCorners& corners, const Vec3& eye_in_wall) {
@@ -43,23 +66,18 @@ View camera_view(const Camera& camera) {
 }
 
 Camera camera_on_wall(const Wall& wall, const Vec3& eye_in_wall, double aspect) {
-  Vec3 middle = Vec3::Zero();
-  for (const Tile& tile : wall.tiles) middle += tile.corners.centre_in_wall();
-  middle /= static_cast<double>(wall.tiles.size());
-  Camera camera{.eye_in_world = eye_in_wall, .target_in_world = middle, .aspect = aspect};
+  const std::vector<Vec3> rays = rays_to_corners(wall, eye_in_wall);
+  Camera camera{.eye_in_world = eye_in_wall,
+                .target_in_world = eye_in_wall + middle_direction(rays),
+                .aspect = aspect};
   const Axes axes = axes_of(camera);
   const double widest = std::min(std::tan(radians(60)), std::tan(radians(70)) / aspect);
   double half_height = 0;
-  for (const Tile& tile : wall.tiles)
-    for (const Vec3& corner :
-         {tile.corners.lower_left_in_wall, tile.corners.lower_right_in_wall,
-          tile.corners.upper_left_in_wall, tile.corners.upper_right_in_wall()}) {
-      const Vec3 ray = corner - eye_in_wall;
-      const double depth = ray.dot(axes.forward);
-      if (depth <= 1e-6) return camera.fov_y_rad = 2 * std::atan(widest), camera;
-      half_height = std::max({half_height, std::abs(ray.dot(axes.up)) / depth,
-                              std::abs(ray.dot(axes.right)) / depth / aspect});
-    }
+  for (const Vec3& ray : rays) {
+    const double depth = std::max(ray.dot(axes.forward), 1e-6);
+    half_height = std::max({half_height, std::abs(ray.dot(axes.up)) / depth,
+                            std::abs(ray.dot(axes.right)) / depth / aspect});
+  }
   camera.fov_y_rad = 2 * std::atan(std::min(1.03 * half_height, widest));
   return camera;
 }

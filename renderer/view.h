@@ -28,8 +28,8 @@ struct Camera {
 /// y.
 View camera_view(const Camera& camera);
 
-/// The camera that has the whole wall in view from an eye: at the wall's middle where that fits,
-/// and never wider than 120 degrees high or 140 degrees wide, so that a picture of it can be looked
+/// The camera that has the whole wall in view from an eye, looking at the middle of what it sees of
+/// it; never wider than 120 degrees high or 140 degrees wide, so that a picture of it can be looked
 /// at.
 Camera camera_on_wall(const Wall& wall, const Vec3& eye_in_wall, double aspect);
 

@@ -46,9 +46,9 @@ void RoomView::draw(WallRenderer& wall, const Rigid3& room_from_head) {
 
 Camera onlooker(const Site& site, double aspect) {
   const double width_m = site.wall.grid.width_m;
-  return {.eye_in_world = {0.58 * width_m, 2.55, 1.12 * width_m},
-          .target_in_world = {-0.04 * width_m, 1.25, 0.12 * width_m},
-          .fov_y_rad = radians(44),
+  return {.eye_in_world = {0.66 * width_m, 3.1, 1.62 * width_m},
+          .target_in_world = {-0.02 * width_m, 1.35, 0.25 * width_m},
+          .fov_y_rad = radians(36),
           .aspect = aspect};
 }
 
