@@ -69,8 +69,8 @@ Eigen::Vector3f smooth_normal(const Corner& own, std::span<const std::uint32_t> 
   for (const std::uint32_t other : around)
     if (flat || own.face_normal.dot(corners[other].face_normal) >= limit)
       sum += corners[other].angle_rad * corners[other].face_normal;
-  const Eigen::Vector3f normal = sum.stableNormalized();
-  if (!normal.isZero()) return normal;
+  sum.stableNormalize();
+  if (!sum.isZero()) return sum;
   return flat ? Eigen::Vector3f::UnitZ() : own.face_normal;
 }
 

@@ -323,6 +323,15 @@ TEST(ImportObj, VertexColoursAreDecodedFromSrgb) {
   EXPECT_EQ(result.scene.materials.at(0).base_colour, Eigen::Vector4f::Ones());
 }
 
+TEST(ImportObj, TextureCoordinatesCountFromTheLowerLeftInTheFile) {
+  const Scene scene =
+      imported("a.obj", std::string(kTriangleObj) + "vt 0.25 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+          .scene;
+
+  EXPECT_TRUE(vertex_at(scene, {0, 0, 0})->uv.isApprox(Eigen::Vector2f(0.25f, 1)));
+  EXPECT_TRUE(vertex_at(scene, {0, 1, 0})->uv.isApprox(Eigen::Vector2f(0, 0)));
+}
+
 TEST(ImportObj, DoesNotStateItsUnit) {
   EXPECT_EQ(imported("a.obj", std::string(kTriangleObj) + "f 1 2 3\n").scene.metres_per_unit,
             std::nullopt);

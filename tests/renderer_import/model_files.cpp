@@ -1,8 +1,7 @@
 #include "model_files.h"
 
-#include <stdlib.h>
-
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
