@@ -15,6 +15,7 @@ namespace vindu::app {
 struct FrameRecord {
   FrameState state;
   std::optional<PoseSample> pose;
+  bool shows_the_tracked_eye = false;  ///< not held, and not on its way to it or from it
   Duration
       capture_age{};  ///< from the arrival of the newest report that the pose rests on to the tick
   Duration solve{};
