@@ -46,9 +46,9 @@ void RoomView::draw(WallRenderer& wall, const Rigid3& room_from_head) {
 
 Camera onlooker(const Site& site, double aspect) {
   const double width_m = site.wall.grid.width_m;
-  return {.eye_in_world = {0.66 * width_m, 3.1, 1.62 * width_m},
-          .target_in_world = {-0.02 * width_m, 1.35, 0.25 * width_m},
-          .fov_y_rad = radians(36),
+  return {.eye_in_world = {0.62 * width_m, 2.5, 1.33 * width_m},
+          .target_in_world = {0.0, 1.28, 0.16 * width_m},
+          .fov_y_rad = radians(41),
           .aspect = aspect};
 }
 
