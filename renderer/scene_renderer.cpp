@@ -43,6 +43,30 @@ std::vector<const GpuScene::Draw*> sorted_draws(const GpuScene& scene, const Vec
   return sorted;
 }
 
+/// Draws of one node and material, in one call.
+struct Batch {
+  const GpuScene::Draw* first = nullptr;
+  std::vector<GLsizei> counts;
+  std::vector<const void*> offsets;
+};
+
+bool alike(const GpuScene::Draw& a, const GpuScene::Draw& b) {
+  return a.node == b.node && a.mesh.material == b.mesh.material;
+}
+
+/// Joins the draw to its like: to any for solid ones, only to the last for blended ones, whose
+/// order matters.
+void add_to_batch(const GpuScene::Draw& draw, bool keep_order, std::vector<Batch>& batches) {
+  const auto begin = keep_order && !batches.empty() ? batches.end() - 1 : batches.begin();
+  auto batch = std::find_if(begin, batches.end(),
+                            [&](const Batch& other) { return alike(*other.first, draw); });
+  if (batch == batches.end())
+    batch = batches.insert(batch, {.first = &draw, .counts = {}, .offsets = {}});
+  const auto offset = static_cast<std::uintptr_t>(draw.mesh.first_index) * sizeof(std::uint32_t);
+  batch->counts.push_back(static_cast<GLsizei>(draw.mesh.index_count));
+  batch->offsets.push_back(reinterpret_cast<const void*>(offset));
+}
+
 }  // namespace
 
 SceneRenderer::SceneRenderer(Style style)
@@ -90,18 +114,20 @@ void SceneRenderer::draw_scene(const View& view, const GpuScene& scene, bool ble
   scene_program_.set("clip_from_world", gl::mat4_from(view.clip_from_world));
   scene_program_.set("eye_in_world", gl::vec3_from(view.eye_in_world));
   scene.bind();
+  std::vector<Batch> batches;
   for (const GpuScene::Draw* draw : sorted_draws(scene, view.eye_in_world, blended)) {
     ++count.draws;
-    if (outside(view.clip_from_world, scene.bounds_in_world(*draw))) {
+    if (outside(view.clip_from_world, scene.bounds_in_world(*draw)))
       ++count.culled;
-      continue;
-    }
-    scene.bind(*draw);
-    (draw->double_sided ? glDisable : glEnable)(GL_CULL_FACE);
-    glFrontFace(scene.mirrored(draw->node) ? GL_CW : GL_CCW);
-    const auto offset = static_cast<std::uintptr_t>(draw->mesh.first_index) * sizeof(std::uint32_t);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(draw->mesh.index_count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(offset));
+    else
+      add_to_batch(*draw, blended, batches);
+  }
+  for (const Batch& batch : batches) {
+    scene.bind(*batch.first);
+    (batch.first->double_sided ? glDisable : glEnable)(GL_CULL_FACE);
+    glFrontFace(scene.mirrored(batch.first->node) ? GL_CW : GL_CCW);
+    glMultiDrawElements(GL_TRIANGLES, batch.counts.data(), GL_UNSIGNED_INT, batch.offsets.data(),
+                        static_cast<GLsizei>(batch.counts.size()));
   }
 }
 
