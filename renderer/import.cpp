@@ -123,24 +123,33 @@ std::optional<double> metres_per_unit(const aiScene& source, const std::string& 
   return std::nullopt;
 }
 
-/// Assimp 5.2 reads an FBX file's axes but does not apply them. Rows are the file's directions of
-/// right and up, and of what then comes towards the viewer.
-std::optional<Eigen::Matrix4f> upright_from_fbx(const aiScene& source) {
-  int up = 1;
-  int up_sign = 1;
-  int right = 0;
-  int right_sign = 1;
-  if (!source.mMetaData || !source.mRootNode->mTransformation.IsIdentity() ||
-      !source.mMetaData->Get("UpAxis", up) || !source.mMetaData->Get("UpAxisSign", up_sign) ||
-      !source.mMetaData->Get("CoordAxis", right) ||
-      !source.mMetaData->Get("CoordAxisSign", right_sign))
-    return std::nullopt;
-  if (up < 0 || up > 2 || right < 0 || right > 2 || up == right) return std::nullopt;
-  const Eigen::Vector3f x = Eigen::Vector3f::Unit(right) * (right_sign < 0 ? -1.0f : 1.0f);
-  const Eigen::Vector3f y = Eigen::Vector3f::Unit(up) * (up_sign < 0 ? -1.0f : 1.0f);
+/// Rows are the file's directions of right and up, and of what then comes towards the viewer.
+Eigen::Matrix4f upright(const Eigen::Vector3f& right_in_file, const Eigen::Vector3f& up_in_file) {
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
-  matrix.topLeftCorner<3, 3>() << x.transpose(), y.transpose(), x.cross(y).transpose();
+  matrix.topLeftCorner<3, 3>() << right_in_file.transpose(), up_in_file.transpose(),
+      right_in_file.cross(up_in_file).transpose();
   return matrix;
+}
+
+/// Axis 0, 1 or 2 with its sign; empty where the file states none.
+std::optional<Eigen::Vector3f> stated_axis(const aiMetadata& metadata, const std::string& name) {
+  int axis = 0;
+  int sign = 1;
+  if (!metadata.Get(name, axis) || !metadata.Get(name + "Sign", sign) || axis < 0 || axis > 2)
+    return std::nullopt;
+  return Eigen::Vector3f::Unit(axis) * (sign < 0 ? -1.0f : 1.0f);
+}
+
+/// What turns the file's axes into ours, where Assimp 5.2 leaves that to us: FBX states them, and
+/// Blender's are always the same (z up).
+std::optional<Eigen::Matrix4f> upright_from_file(const aiScene& source, const std::string& loader) {
+  if (!source.mRootNode->mTransformation.IsIdentity()) return std::nullopt;
+  if (loader == kBlenderLoader) return upright(Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ());
+  if (loader != kFbxLoader || !source.mMetaData) return std::nullopt;
+  const auto right = stated_axis(*source.mMetaData, "CoordAxis");
+  const auto up = stated_axis(*source.mMetaData, "UpAxis");
+  if (!right || !up || right->dot(*up) != 0) return std::nullopt;
+  return upright(*right, *up);
 }
 
 void warn_of(const MeshLosses& losses, std::vector<std::string>& warnings) {
@@ -229,9 +238,8 @@ ImportResult converted(const aiScene& source, const std::string& file, const Imp
   scene.animations = import_animations(source, scene.nodes);
   const std::string loader = loader_of(source);
   scene.metres_per_unit = metres_per_unit(source, loader);
-  if (loader == kFbxLoader)
-    if (const std::optional<Eigen::Matrix4f> upright = upright_from_fbx(source))
-      scene.nodes.front().parent_from_node = *upright;
+  if (const std::optional<Eigen::Matrix4f> turned = upright_from_file(source, loader))
+    scene.nodes.front().parent_from_node = *turned;
   check_drawable(scene, file);
   return result;
 }

@@ -104,11 +104,17 @@ struct Conversion {
     material.metallic *= static_cast<float>((*mean)[2]) / 255;
   }
 
+  /// A picture that glows on black, as scans often come, is an unlit base colour; on anything else
+  /// it is left out. Call it after the base colour is known.
   void use_emissive(const Eigen::Vector3f& emissive) {
     material.emissive = emissive;
     if (emissive.isZero() || texture_name(source, aiTextureType_EMISSIVE).empty()) return;
     material.emissive.setZero();
-    warn("its emissive texture is not shown");
+    if (!material.base_colour.head<3>().isZero(1e-3f))
+      return warn("its emissive texture is not shown");
+    if (!use_base_texture({aiTextureType_EMISSIVE})) return;
+    material.base_colour.head<3>() = emissive;
+    material.unlit = true;
   }
 };
 
@@ -120,28 +126,38 @@ void convert_gltf_alpha(Conversion& conversion) {
   material.alpha_cutoff = number(conversion.source, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5f);
 }
 
-/// glTF 2.0, 3.9, and KHR_materials_pbrSpecularGlossiness, of which diffuse and glossiness remain.
+/// glTF 2.0, 3.9.2.
+void convert_metallic_roughness(Conversion& conversion) {
+  const aiMaterial& source = conversion.source;
+  Material& material = conversion.material;
+  material.base_colour = colour(source, AI_MATKEY_BASE_COLOR).value_or(Eigen::Vector4f::Ones());
+  material.metallic = unit(number(source, AI_MATKEY_METALLIC_FACTOR).value_or(1));
+  material.roughness = unit(number(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1));
+  conversion.use_base_texture({aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+  conversion.use_mean_roughness();
+}
+
+/// KHR_materials_pbrSpecularGlossiness, of which diffuse and glossiness remain.
+void convert_specular_glossiness(Conversion& conversion, float glossiness) {
+  conversion.material.base_colour =
+      colour(conversion.source, AI_MATKEY_COLOR_DIFFUSE).value_or(Eigen::Vector4f::Ones());
+  conversion.material.roughness = 1 - unit(glossiness);
+  conversion.use_base_texture({aiTextureType_DIFFUSE});
+}
+
 void convert_gltf(Conversion& conversion) {
   const aiMaterial& source = conversion.source;
   Material& material = conversion.material;
   material.double_sided = whole(source, AI_MATKEY_TWOSIDED) != 0;
   material.unlit = whole(source, AI_MATKEY_SHADING_MODEL) == aiShadingMode_Unlit;
   convert_gltf_alpha(conversion);
+  const std::optional<float> glossiness = number(source, AI_MATKEY_GLOSSINESS_FACTOR);
+  if (glossiness)
+    convert_specular_glossiness(conversion, *glossiness);
+  else
+    convert_metallic_roughness(conversion);
   const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
   if (emissive) conversion.use_emissive(emissive->head<3>());
-  const std::optional<float> glossiness = number(source, AI_MATKEY_GLOSSINESS_FACTOR);
-  if (glossiness) {
-    material.base_colour =
-        colour(source, AI_MATKEY_COLOR_DIFFUSE).value_or(Eigen::Vector4f::Ones());
-    material.roughness = 1 - unit(*glossiness);
-    conversion.use_base_texture({aiTextureType_DIFFUSE});
-    return;
-  }
-  material.base_colour = colour(source, AI_MATKEY_BASE_COLOR).value_or(Eigen::Vector4f::Ones());
-  material.metallic = unit(number(source, AI_MATKEY_METALLIC_FACTOR).value_or(1));
-  material.roughness = unit(number(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1));
-  conversion.use_base_texture({aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
-  conversion.use_mean_roughness();
 }
 
 /// The colour that goes with a texture: only OBJ's file format says that both are multiplied, and

@@ -205,6 +205,21 @@ TEST(ImportGltf, AGlowThatOnlyATextureLimitsIsLeftOut) {
   EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("emissive")));
 }
 
+TEST(ImportGltf, APictureThatGlowsOnBlackIsUnlit) {
+  const ImportResult result =
+      imported("quad.gltf", gltf_quad({.material = R"({"pbrMetallicRoughness": {"baseColorFactor":
+                                  [0, 0, 0, 1]}, "emissiveFactor": [1, 0.5, 1],
+                                  "emissiveTexture": {"index": 0}})",
+                                       .more = texture_member()}));
+
+  const Material& material = result.scene.materials.at(0);
+  EXPECT_TRUE(material.unlit);
+  EXPECT_EQ(material.base_colour, Eigen::Vector4f(1, 0.5f, 1, 1));
+  EXPECT_EQ(material.base_colour_texture, 0);
+  EXPECT_TRUE(material.emissive.isZero());
+  EXPECT_THAT(result.warnings, IsEmpty());
+}
+
 TEST(ImportGltf, TextureTransformIsThatOfTheExtension) {
   const Scene scene = gltf_scene(
       {.material = R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions":
