@@ -223,7 +223,8 @@ TEST(ImportGltf, APictureThatGlowsOnBlackIsUnlit) {
 TEST(ImportGltf, TextureTransformIsThatOfTheExtension) {
   const Scene scene = gltf_scene(
       {.material = R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions":
-          {"KHR_texture_transform": {"offset": [0.5, -0.25], "rotation": 0.3, "scale": [2, 3]}}}}})",
+          {"KHR_texture_transform":
+            {"offset": [0.5, -0.25], "rotation": 0.3, "scale": [2, 3]}}}}})",
        .more = texture_member() + R"(, "extensionsUsed": ["KHR_texture_transform"])"});
 
   // offset + [c s; -s c] * scale * uv, for uv = (0, 0), (1, 0) and (0, 1).
