@@ -1,5 +1,6 @@
 #include "app/common.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
@@ -27,6 +28,15 @@ Vec3 parse_vec3(const std::string& name, const std::string& text) {
     at = next + 1;
   }
   return value;
+}
+
+/// The show is made in the metres of the Tromsø wall; on another one it is scaled until its opening
+/// covers all of that.
+Navigation place_show(const Wall& wall) {
+  constexpr double kWidth_m = 5.185, kHeight_m = 2.238;
+  Navigation navigation;
+  navigation.scale = std::max(wall.grid.width_m / kWidth_m, wall.grid.height_m / kHeight_m);
+  return navigation;
 }
 
 LoadedScene place(Scene scene, Placement placement, const Wall& wall) {
@@ -76,9 +86,9 @@ LoadedScene load_scene(const std::string& model, std::optional<Placement> placem
   for (const std::string& warning : imported.warnings) log_warning(imported.scene.name, warning);
   log_debug(imported.scene.name, std::to_string(imported.scene.triangle_count()) + " triangles");
   cut_into_chunks(imported.scene);
+  if (show && !placement) return {std::move(imported.scene), place_show(site.wall)};
   const Placement wanted = model.empty() ? site.scene.place : Placement::fit;
-  return place(std::move(imported.scene), placement.value_or(show ? Placement::as_is : wanted),
-               site.wall);
+  return place(std::move(imported.scene), placement.value_or(wanted), site.wall);
 }
 
 }  // namespace vindu::app

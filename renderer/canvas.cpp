@@ -16,8 +16,9 @@ void check_complete(GLuint framebuffer, SizePx size) {
   const std::string shown = std::to_string(size.width) + "x" + std::to_string(size.height);
   const std::string remedy =
       "draw smaller pictures (--scale); the largest side here is " + std::to_string(largest);
-  if (glCheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw Error({"cannot make a picture of " + shown + " pixels", "OpenGL", remedy});
+  if (glCheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  while (glGetError() != GL_NO_ERROR) continue;  // reported below; not the next caller's
+  throw Error({"cannot make a picture of " + shown + " pixels", "OpenGL", remedy});
 }
 
 }  // namespace
