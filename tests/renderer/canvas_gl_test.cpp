@@ -25,7 +25,7 @@ TEST_F(CanvasGl, ClearsAPictureToTheBytesAsTheyAre) {
 
 TEST_F(CanvasGl, BeginsBlackAndOpaque) {
   for (const Style style : {Style::lit, Style::unlit}) {
-    Canvas canvas({7, 4}, style);
+    Canvas canvas({7, 4}, Look{style});
     Picture picture({7, 4}, style);
     picture.clear(kWhite);
     canvas.begin();
@@ -45,7 +45,7 @@ void fill_part(Canvas& canvas, int x, int y, SizePx size, float level) {
 }
 
 TEST_F(CanvasGl, ReadsTheUpperLeftAsUpperLeft) {
-  Canvas canvas({8, 6}, Style::unlit);
+  Canvas canvas({8, 6}, Look{Style::unlit});
   Picture picture({8, 6}, Style::unlit);
   fill_part(canvas, 0, 4, {3, 2}, 1);  // OpenGL counts from below
   canvas.resolve(picture, 0, 0);
@@ -56,7 +56,7 @@ TEST_F(CanvasGl, ReadsTheUpperLeftAsUpperLeft) {
 }
 
 TEST_F(CanvasGl, ResolvesToAPlaceCountedFromTheLowerLeftAndReadsItBackThere) {
-  Canvas canvas({2, 3}, Style::unlit);
+  Canvas canvas({2, 3}, Look{Style::unlit});
   Picture picture({9, 7}, Style::unlit);
   picture.clear(kBlue);
   fill_part(canvas, 0, 2, {2, 1}, 1);  // its upper row
@@ -84,6 +84,16 @@ TEST_F(CanvasGl, AveragesLightAndNotBytesAtEdges) {
   EXPECT_THAT(image.at(40, 30), IsNearColour(kWhite, 0));
 }
 
+TEST_F(CanvasGl, HasAsManySamplesAsAreAskedFor) {
+  for (const int samples : {1, 4}) {
+    Canvas canvas({4, 4}, Look{.samples = samples});
+    canvas.begin();
+    GLint found = 0;
+    glGetIntegerv(GL_SAMPLES, &found);
+    EXPECT_EQ(std::max(found, 1), samples);
+  }
+}
+
 TEST_F(CanvasGl, HasNoMultisamplingWhereItIsForMeasuring) {
   Eigen::Matrix4f tilted = Eigen::Matrix4f::Identity();
   tilted.topLeftCorner<3, 3>() =
@@ -106,7 +116,7 @@ TEST_F(CanvasGl, RefusesSizesThatTheGpuCannotMakeAndSaysWhatItCan) {
   for (const SizePx size : {SizePx{1 << 20, 4}, SizePx{4, 1 << 20}}) {
     const std::string shown = std::to_string(size.width) + "x" + std::to_string(size.height);
     for (const std::string& text : {complaint([&] { Picture(size, Style::lit); }),
-                                    complaint([&] { Canvas(size, Style::lit); })}) {
+                                    complaint([&] { Canvas(size, Look{Style::lit}); })}) {
       EXPECT_THAT(text, HasSubstr(shown));
       EXPECT_THAT(text, HasSubstr("--scale"));
       EXPECT_THAT(text, HasSubstr("largest side"));

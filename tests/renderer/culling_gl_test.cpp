@@ -90,7 +90,7 @@ class Tester {
  private:
   static constexpr SizePx kSize{32, 24};
   SceneRenderer renderer_{Style::unlit};
-  Canvas canvas_{kSize, Style::unlit};
+  Canvas canvas_{kSize, Look{Style::unlit}};
   Picture picture_{kSize, Style::unlit};
 };
 
@@ -139,7 +139,7 @@ TEST_F(CullingGl, LeavesOutMostOfWhatATileDoesNotShow) {
                moved_by(static_cast<float>(index) - 50, 0, -1) * scaled_by(.4f, .4f, 1));
   GpuScene gpu_scene(scene, Style::unlit);
   const SceneRenderer renderer(Style::unlit);
-  Canvas canvas(kStage_px, Style::unlit);
+  Canvas canvas(kStage_px, Look{Style::unlit});
   const GpuScene* scenes[] = {&gpu_scene};
   const DrawCount count = renderer.draw(*tile_view(stage(), {0, 0, 2}), scenes, {}, canvas);
   EXPECT_EQ(count.draws, 100);

@@ -36,7 +36,7 @@ inline Image draw_on_stage(const Scene& scene, Style style, const Vec3& eye_in_w
   GpuScene gpu_scene(scene, style);
   gpu_scene.pose(world_from_scene, 0);
   const SceneRenderer renderer(style);
-  Canvas canvas(kStage_px, style);
+  Canvas canvas(kStage_px, Look{style});
   Picture picture(kStage_px, style);
   const GpuScene* scenes[] = {&gpu_scene};
   renderer.draw(*tile_view(stage(), eye_in_world), scenes, {}, canvas);

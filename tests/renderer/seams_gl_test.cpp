@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/site.h"
+#include "renderer/chunks.h"
 #include "renderer/import.h"
 #include "renderer/resources.h"
 #include "renderer/wall_renderer.h"
@@ -18,7 +19,7 @@ using namespace testing;
 class SeamsGl : public GlTest {
  protected:
   static Image drawn(const Wall& wall, Style style, const Scene& scene, const FrameState& state) {
-    WallRenderer renderer(wall, 1, style);
+    WallRenderer renderer(wall, 1, Look{style});
     renderer.show(scene);
     renderer.draw(state);
     return renderer.picture().read();
@@ -53,7 +54,8 @@ Difference joined_against_one_picture(Style style, Image (*draw)(const Wall&, St
                                                                  const FrameState&)) {
   const Wall wall = read_site(find_asset("walls/tromso.toml")).wall;
   const Wall whole = single_screen(wall.grid.width_m, wall.grid.height_m, 7168, 3072);
-  const Scene show = import_scene(find_asset("show/show.glb")).scene;
+  Scene show = import_scene(find_asset("show/show.glb")).scene;
+  cut_into_chunks(show);
   FrameState state;
   state.eye_in_wall = {0.4, 0.2, 1.5};
   state.animation_time_s = 3;

@@ -50,7 +50,7 @@ Scene numbered_squares() {
 }
 
 TEST_F(WallRendererGl, DrawsEveryTileAtItsPlace) {
-  WallRenderer wall(small_wall(), 1, Style::unlit);
+  WallRenderer wall(small_wall(), 1, Look{Style::unlit});
   wall.show(numbered_squares());
   const WallFrame frame = wall.draw(seen_from({0.7, 0.2, 1.1}));
   EXPECT_THAT(frame.black_tiles, IsEmpty());
@@ -64,7 +64,7 @@ TEST_F(WallRendererGl, DrawsEveryTileAtItsPlace) {
 }
 
 TEST_F(WallRendererGl, LeavesBezelsBlack) {
-  WallRenderer wall(small_wall(100), 1, Style::unlit);
+  WallRenderer wall(small_wall(100), 1, Look{Style::unlit});
   wall.show(square_scene(plain(1, 1, 1), scaled_by(5, 5, 1)));
   wall.draw({});
   const Image whole = wall.picture().read();
@@ -77,7 +77,7 @@ TEST_F(WallRendererGl, LeavesBezelsBlack) {
 
 TEST_F(WallRendererGl, DrawsOneTileAlone) {
   const Wall geometry = small_wall();
-  WallRenderer wall(geometry, 1, Style::unlit);
+  WallRenderer wall(geometry, 1, Look{Style::unlit});
   wall.show(numbered_squares());
   wall.draw({}, geometry.find("tile-1-1"));
   EXPECT_THAT(wall.read_tile(4).pixels, Each(Rgba8{14, 0, 0, 255}));
@@ -88,7 +88,7 @@ TEST_F(WallRendererGl, DrawsOneTileAlone) {
 TEST_F(WallRendererGl, DrawsTilesOfSeveralPixelSizes) {
   Wall geometry = small_wall();
   geometry.tiles[5].width_px = 31;
-  WallRenderer wall(geometry, 1, Style::unlit);
+  WallRenderer wall(geometry, 1, Look{Style::unlit});
   wall.show(numbered_squares());
   wall.draw({});
   EXPECT_EQ(wall.read_tile(5).width_px, 31);
@@ -100,7 +100,7 @@ TEST_F(WallRendererGl, BlackensATileWhoseBackTheEyeSeesAndNamesIt) {
   Wall geometry = small_wall();
   // tile-0-0 turned about its left edge by a quarter: it faces right.
   geometry.tiles[0].corners = {{-1.5, -1, 0}, {-1.5, -1, -1}, {-1.5, 0, 0}};
-  WallRenderer wall(geometry, 1, Style::lit);
+  WallRenderer wall(geometry, 1, Look{Style::lit});
   wall.show(square_scene(plain(1, 1, 1), moved_by(0, 0, -1) * scaled_by(50, 50, 1)));
   const WallFrame from_left = wall.draw(seen_from({-2.5, 0, 2}));
   const Image black = wall.read_tile(0);
@@ -112,7 +112,7 @@ TEST_F(WallRendererGl, BlackensATileWhoseBackTheEyeSeesAndNamesIt) {
 }
 
 TEST_F(WallRendererGl, BlackensAllTilesForAnEyeBehindTheWallAndComesBack) {
-  WallRenderer wall(small_wall(), 1, Style::unlit);
+  WallRenderer wall(small_wall(), 1, Look{Style::unlit});
   wall.show(square_scene(plain(1, 1, 1), scaled_by(5, 5, 1)));
   wall.draw({});
   EXPECT_EQ(wall.draw(seen_from({0, 0, -1})).black_tiles.size(), 6u);
@@ -122,13 +122,13 @@ TEST_F(WallRendererGl, BlackensAllTilesForAnEyeBehindTheWallAndComesBack) {
 }
 
 TEST_F(WallRendererGl, DrawsNothingBeforeASceneIsShown) {
-  WallRenderer wall(small_wall(), 1, Style::unlit);
+  WallRenderer wall(small_wall(), 1, Look{Style::unlit});
   EXPECT_EQ(wall.draw({}).count.draws, 0);
   EXPECT_THAT(wall.picture().read().pixels, Each(kBlack));
 }
 
 TEST_F(WallRendererGl, ReplacesTheScene) {
-  WallRenderer wall(small_wall(), 1, Style::unlit);
+  WallRenderer wall(small_wall(), 1, Look{Style::unlit});
   wall.show(square_scene(plain(1, 0, 0), scaled_by(5, 5, 1)));
   wall.draw({});
   wall.show(square_scene(plain(0, 0, 1), scaled_by(5, 5, 1)));
@@ -137,7 +137,7 @@ TEST_F(WallRendererGl, ReplacesTheScene) {
 }
 
 TEST_F(WallRendererGl, FollowsNavigation) {
-  WallRenderer wall(small_wall(), 1, Style::unlit);
+  WallRenderer wall(small_wall(), 1, Look{Style::unlit});
   wall.show(square_scene(plain(1, 1, 1)));
   FrameState state = seen_from({0, 0, 2});
   state.navigation.scale = 0.5;
@@ -150,7 +150,7 @@ TEST_F(WallRendererGl, FollowsNavigation) {
 }
 
 TEST_F(WallRendererGl, DrawsTheSameBitsAgain) {
-  WallRenderer wall(small_wall(), 3, Style::lit);
+  WallRenderer wall(small_wall(), 3, Look{Style::lit});
   Material lit = plain(.6f, .3f, .2f);
   lit.unlit = false;
   wall.show(cube_scene(lit));
@@ -167,7 +167,7 @@ TEST_F(WallRendererGl, DrawsTheSameBitsAgain) {
 
 TEST_F(WallRendererGl, RefusesAWallThatIsTooLargeForTheGpu) {
   try {
-    WallRenderer wall(single_screen(5, 2, 1 << 20, 100), 1, Style::lit);
+    WallRenderer wall(single_screen(5, 2, 1 << 20, 100), 1, Look{Style::lit});
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("1048576x100"));
@@ -176,7 +176,7 @@ TEST_F(WallRendererGl, RefusesAWallThatIsTooLargeForTheGpu) {
 }
 
 TEST_F(WallRendererGl, ShowsTheEyeTheWallsPicture) {
-  WallRenderer wall(small_wall(), 1, Style::unlit);
+  WallRenderer wall(small_wall(), 1, Look{Style::unlit});
   wall.show(numbered_squares());
   const Vec3 eye(0, 0, 3);
   wall.draw(seen_from(eye));
@@ -190,7 +190,7 @@ TEST_F(WallRendererGl, ShowsTheEyeTheWallsPicture) {
 class EyesOfNoUse : public WallRendererGl, public ::testing::WithParamInterface<Vec3> {};
 
 TEST_P(EyesOfNoUse, StillGiveAPicture) {
-  WallRenderer wall(small_wall(), 1, Style::unlit);
+  WallRenderer wall(small_wall(), 1, Look{Style::unlit});
   wall.show(numbered_squares());
   wall.draw(seen_from(GetParam()));
   EXPECT_EQ(picture_from_eye(wall, GetParam(), {30, 20}).width_px, 30);
