@@ -10,6 +10,7 @@
 #include "renderer/chunks.h"
 #include "renderer/import.h"
 #include "renderer/resources.h"
+#include "renderer/surface.h"
 
 namespace vindu::app {
 namespace {
@@ -75,6 +76,8 @@ void make_folder(const std::string& folder) {
   if (error || !std::filesystem::is_directory(folder))
     throw Error({"cannot be made: " + error.message(), folder, "choose another --out"});
 }
+
+Look live_look() { return {.samples = draws_in_software() ? 1 : 4}; }
 
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
                        const Site& site) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/site.h"
+#include "renderer/canvas.h"
 #include "renderer/placement.h"
 #include "renderer/scene.h"
 
@@ -24,6 +25,10 @@ Site load_site(const std::string& wall_file);
 
 /// Makes the folder, with its parents. Throws Error when that fails.
 void make_folder(const std::string& folder);
+
+/// How frames are drawn while they run: a CPU that draws does not smooth edges, which costs it more
+/// than twice the time. Needs a current context.
+Look live_look();
 
 struct LoadedScene {
   Scene scene;

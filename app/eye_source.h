@@ -24,8 +24,8 @@ struct EyeNow {
   Vec3 eye_in_wall = Vec3::Zero();
   Mode mode = Mode::track;
   std::optional<PoseSample> pose{};  ///< that the eye rests on; empty where nothing is tracked
-  bool tracked = false;            ///< it is the pose's eye, not held and not being led to it
-  Duration solve{};                ///< reading the cameras and finding the pose
+  bool tracked = false;              ///< it is the pose's eye, not held and not being led to it
+  Duration solve{};                  ///< reading the cameras and finding the pose
 };
 
 class EyeSource {

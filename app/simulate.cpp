@@ -68,9 +68,6 @@ EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& cl
   return room;
 }
 
-/// A CPU that draws does not smooth edges while frames run: that costs it more than twice the time.
-Look live_look() { return {.samples = draws_in_software() ? 1 : 4}; }
-
 /// Draws a few frames at a small size and picks the scale at which this machine keeps a fluid rate;
 /// what it can draw at full size, it draws so.
 double fluid_scale(const Run& run) {
@@ -148,7 +145,7 @@ void present_in(const WallRenderer& wall, const Picture& picture, int x, int y, 
 /// The window: the room above, the wall's picture below.
 class WindowPainter {
  public:
-  WindowPainter(Run& run) : run_(run), room_(run.site, {960, 540}) {}
+  WindowPainter(Run& run) : run_(run), room_(run.site, {960, 540}, live_look()) {}
   void paint(const FrameRecord& record) {
     room_.draw(*run_.wall, run_.room->person().room_from_head(record.state.photon_time));
     const SizePx size = run_.surface->size();
@@ -235,7 +232,7 @@ void save_sheet(Run& run, const LoopResult& result) {
   if (moments.empty()) return;
   WallRenderer wall(run.site.wall, kSheetScale, Look{});
   wall.show(run.loaded.scene);
-  RoomView room(run.site, kRoomPicture);
+  RoomView room(run.site, kRoomPicture, Look{});
   std::vector<Moment> pictures;
   for (const auto& [title, frame] : moments)
     pictures.push_back(picture_moment(run, wall, room, title, *frame));

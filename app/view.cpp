@@ -129,7 +129,7 @@ class Viewer {
     if (size.width < 1 || size.height < 1) return 0;  // minimised
     if (mount.rotate_deg % 180 == 90) std::swap(size.width, size.height);
     if (!canvas_ || canvas_->size() != size) {
-      canvas_ = std::make_unique<Canvas>(size, Look{});
+      canvas_ = std::make_unique<Canvas>(size, live_look());
       picture_ = std::make_unique<Picture>(size, Style::lit);
     }
     const auto view = tile_view(content_corners(site_.wall, window_), state.eye_in_wall);
@@ -145,6 +145,7 @@ class Viewer {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, window_.size().width, window_.size().height);
     renderer_.present(*picture_, mount);
+    glFinish();
     return view ? 0 : 1;
   }
 
@@ -178,7 +179,8 @@ std::unique_ptr<EyeSource> choose_eyes(const ViewOptions& options, Window& windo
   if (!options.track) return follow_person(room.person());
   if (site.cameras.empty())
     throw Error({"no cameras are known", "--track",
-                 "name a wall file with [[camera]] tables: --wall FILE"});
+                 "name a wall file of one screen with [[camera]] tables, as "
+                 "assets/walls/desk.toml: --wall FILE"});
   return std::make_unique<TrackedEye>(site, room, clock, TrackerOptions{});
 }
 
@@ -227,7 +229,12 @@ int view(const ViewOptions& options) {
         viewer.take_dropped_model();
         return !window->close_wanted();
       });
-  const RunReport report{.loop = result, .wall_px = window->size(), .gl = gl_description()};
+  const auto* tracked = dynamic_cast<const TrackedEye*>(eyes.get());
+  const RunReport report{.loop = result,
+                         .truth = tracked ? &room.person() : nullptr,
+                         .tracker = tracked ? &tracked->tracker() : nullptr,
+                         .wall_px = window->size(),
+                         .gl = gl_description()};
   std::fputs(table_of(report).c_str(), stdout);
   return 0;
 }
@@ -272,7 +279,7 @@ void add_view(CLI::App& parent, Action& chosen) {
       "\nExamples:\n"
       "  vindu view model.glb --mouse\n"
       "  vindu view scan.ply --eye 0,0.1,0.6 --screen-mm 527 296\n"
-      "  vindu view --track --wall desk.toml --fullscreen\n");
+      "  vindu view --track --wall assets/walls/desk.toml --fullscreen\n");
   app->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
 

@@ -62,8 +62,10 @@ void main() {
     return;
   }
   vec3 v = normalize(eye_in_world - position_in_world);
+  // The normal on the viewer's side of the face: old files mix the winding of their triangles.
   vec3 n = normalize(normal_in_world);
-  if (!gl_FrontFacing) n = -n;
+  vec3 face = cross(dFdx(position_in_world), dFdy(position_in_world));
+  if (dot(face, v) * dot(face, n) < 0.0) n = -n;
   float metallic = material.emissive_metallic.a, roughness = material.roughness_cutoff_unlit.x;
   vec3 albedo = base.rgb * (1.0 - metallic);
   vec3 f0 = mix(vec3(0.04), base.rgb, metallic);

@@ -14,9 +14,9 @@ GpuScene load(const char* asset) {
 
 }  // namespace
 
-RoomView::RoomView(const Site& site, SizePx size)
+RoomView::RoomView(const Site& site, SizePx size, const Look& look)
     : site_(site),
-      canvas_(size, Look{}),
+      canvas_(size, look),
       picture_(size, Style::lit),
       lab_(load("lab/lab.glb")),
       head_(load("lab/head.glb")),

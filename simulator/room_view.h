@@ -13,7 +13,7 @@ namespace vindu {
 class RoomView {
  public:
   /// Loads the laboratory from the assets. Throws Error when one is missing.
-  RoomView(const Site& site, SizePx size);
+  RoomView(const Site& site, SizePx size, const Look& look);
 
   /// The wall must have been drawn for the same moment. Looks from behind the person, aside.
   void draw(WallRenderer& wall, const Rigid3& room_from_head);

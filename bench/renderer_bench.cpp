@@ -1,0 +1,87 @@
+// What a frame of the whole wall costs in one process: 28 tiles against the same pixels as one
+// picture, lit and unlit, of the show. The counters are the ratio and what was culled; the pictures
+// that were timed are kept beside the program.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "core/site.h"
+#include "renderer/chunks.h"
+#include "renderer/import.h"
+#include "renderer/resources.h"
+#include "renderer/surface.h"
+#include "renderer/wall_renderer.h"
+
+namespace vindu {
+namespace {
+
+constexpr double kScale = 0.25;
+const FrameState kFrame{.eye_in_wall = {0.3, 0.1, 1.8}, .animation_time_s = 3};
+
+/// One context for all benches of this program.
+void need_context() { static const std::unique_ptr<Surface> surface = make_headless_surface(); }
+
+const Scene& show() {
+  static const Scene scene = [] {
+    Scene imported = import_scene(find_asset("show/show.glb")).scene;
+    cut_into_chunks(imported);
+    return imported;
+  }();
+  return scene;
+}
+
+Wall wall_of_28() { return read_site(find_asset("walls/tromso.toml")).wall; }
+
+Wall same_as_one() {
+  const WallGrid grid = wall_of_28().grid;
+  return single_screen(grid.width_m, grid.height_m, grid.columns * grid.tile_width_px,
+                       grid.rows * grid.tile_height_px);
+}
+
+double frame_s(WallRenderer& renderer) {
+  const auto start = std::chrono::steady_clock::now();
+  renderer.draw(kFrame);
+  renderer.finish();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double best_frame_s(WallRenderer& renderer) {
+  double best_s = 1e9;
+  for (int round = 0; round < 10; ++round) best_s = std::min(best_s, frame_s(renderer));
+  return best_s;
+}
+
+void wall_of_28_tiles(benchmark::State& state, Look look, const char* picture) {
+  need_context();
+  WallRenderer tiles(wall_of_28(), kScale, look), one(same_as_one(), kScale, look);
+  tiles.show(show());
+  one.show(show());
+  WallFrame frame;
+  for (auto _ : state) {
+    frame = tiles.draw(kFrame);
+    tiles.finish();
+  }
+  state.counters["ratio_to_one_picture"] = best_frame_s(tiles) / best_frame_s(one);
+  state.counters["culled_share"] = static_cast<double>(frame.count.culled) / frame.count.draws;
+  state.counters["triangles"] = static_cast<double>(show().triangle_count());
+  write_png(tiles.picture().read(), picture);
+}
+BENCHMARK_CAPTURE(wall_of_28_tiles, lit_1_sample, Look{Style::lit, 1}, "wall_lit_1.png")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wall_of_28_tiles, lit_4_samples, Look{Style::lit, 4}, "wall_lit_4.png")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wall_of_28_tiles, unlit, Look{Style::unlit}, "wall_unlit.png")
+    ->Unit(benchmark::kMillisecond);
+
+void one_picture_of_the_same_pixels(benchmark::State& state) {
+  need_context();
+  WallRenderer one(same_as_one(), kScale, Look{Style::lit, 1});
+  one.show(show());
+  for (auto _ : state) frame_s(one);
+}
+BENCHMARK(one_picture_of_the_same_pixels)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace vindu
