@@ -62,13 +62,30 @@ Vec3 random_eye(Random& random) {
   }
 }
 
-/// Long and thin, flat or round; before the wall, behind it, around the eye or far away.
-Mat4 random_box(Random& random, const Vec3& eye_in_wall) {
+/// A point on the ray through a point near the tile's border: where a frustum that is a little too
+/// narrow would cut.
+Vec3 near_border(Random& random, const TileCorners& corners, const Vec3& eye_in_wall) {
+  double across = random.between(0, 1), along = random.index(2) ? 0.06 : 0.94;
+  along += random.between(-0.08, 0.08);
+  if (random.index(2)) std::swap(across, along);
+  const Vec3 on_tile = corners.lower_left_in_wall +
+                       across * (corners.lower_right_in_wall - corners.lower_left_in_wall) +
+                       along * (corners.upper_left_in_wall - corners.lower_left_in_wall);
+  return eye_in_wall + std::pow(10, random.between(-1, 1)) * (on_tile - eye_in_wall);
+}
+
+/// Long and thin, flat or round; at the frustum's border, around the eye, or anywhere.
+Mat4 random_box(Random& random, const TileCorners& corners, const Vec3& eye_in_wall) {
+  const std::size_t kind = random.index(3);
+  const Vec3 middle = kind == 0   ? near_border(random, corners, eye_in_wall)
+                      : kind == 1 ? eye_in_wall + random.in_box({-.5, -.5, -.5}, {.5, .5, .5})
+                                  : random.in_box({-8, -5, -20}, {8, 5, 5});
+  const double border_m = 0.03 * (middle - eye_in_wall).norm();
   const Vec3 size_exponents = random.in_box({-3, -3, -3}, {1, 1, 1});
-  const Vec3 half_size = size_exponents.unaryExpr([](double value) { return std::pow(10, value); });
-  const Vec3 middle = random.index(3) == 0
-                          ? Vec3(eye_in_wall + random.in_box({-.5, -.5, -.5}, {.5, .5, .5}))
-                          : random.in_box({-8, -5, -20}, {8, 5, 5});
+  const Vec3 half_size =
+      kind == 0
+          ? Vec3(border_m * random.in_box({.1, .1, .1}, {1, 1, 1}))
+          : Vec3(size_exponents.unaryExpr([](double exponent) { return std::pow(10, exponent); }));
   Mat4 wall_from_cube = Mat4::Identity();
   wall_from_cube.topLeftCorner<3, 3>() = random.rotation() * half_size.asDiagonal();
   wall_from_cube.topRightCorner<3, 1>() = middle;
@@ -116,7 +133,7 @@ TEST_F(CullingGl, NeverLeavesOutABoxThatHasAPixel) {
     const Tile& tile = wall.tiles[random.index(wall.tiles.size())];
     const auto view = tile_view(tile.corners, eye);
     if (!view) continue;
-    const Mat4 wall_from_cube = random_box(random, eye);
+    const Mat4 wall_from_cube = random_box(random, tile.corners, eye);
     bool culled = false, never = false;
     const int with_culling = tester.drawn_pixels(*view, cube, wall_from_cube, culled);
     const int without = tester.drawn_pixels(*view, whole, wall_from_cube, never);
