@@ -5,11 +5,26 @@ is 1.75 m above it), it faces -z. Metres. The head's knitted yoke covers its nec
 import math
 
 import gltf
-from figure import BUST_LIFT, CREAM, SKIN, WOOL, between, limb, stitches
+from figure import BUST_LIFT, CREAM, SKIN, WOOL, between, knitted, knitting, limb, plain
 from mesh import Mesh, add, mix, mul, smoothstep
 
+SIDES, ROUNDS = 112, 72  # stitches of the jumper, round it and up
 TROUSERS = (0.060, 0.058, 0.066)
 SHOES = (0.16, 0.085, 0.045)
+
+
+def jumper():
+    """Its texture; the row above the knitting is white, for what is not knitted."""
+
+    def stitch(i, j):
+        if j == ROUNDS:
+            return (1, 1, 1)
+        if j < 5:
+            return mul(WOOL, 0.95 if i % 2 else 0.60)
+        dotted = 8 < j < 56 and j % 4 == 0 and (i + 2 * (j // 4)) % 4 == 0
+        return mix(WOOL, CREAM, 0.8) if dotted else CREAM if j in (6, 7) else WOOL
+
+    return knitting(SIDES, ROUNDS + 1, stitch)
 
 
 def torso(mesh, z):
@@ -27,7 +42,7 @@ def torso(mesh, z):
         (1.458, 0.050, 0.045, 0.002),
     )
 
-    sides, rounds = 112, 72
+    sides, rounds = 40, 30
     rows = []
     for j in range(rounds + 1):
         y = table[0][0] + (table[-1][0] - table[0][0]) * j / rounds
@@ -43,13 +58,7 @@ def torso(mesh, z):
             ]
         )
 
-    def stitch(i, j):
-        if j < 5:
-            return mul(WOOL, 0.95 if i % 2 else 0.60)
-        dotted = 8 < j < 56 and j % 4 == 0 and (i + 2 * (j // 4)) % 4 == 0
-        return mix(WOOL, CREAM, 0.8) if dotted else CREAM if j in (6, 7) else WOOL
-
-    stitches(mesh, rows, stitch)
+    knitted(mesh, rows, 1.5 / (ROUNDS + 1), 1 - 0.3 / (ROUNDS + 1))
 
 
 def legs(mesh, z):
@@ -69,7 +78,7 @@ def legs(mesh, z):
             TROUSERS,
         )
         shoe = Mesh()
-        shoe.sphere((0, 0, 0), 1.0, SHOES, 32, 20)
+        shoe.sphere((0, 0, 0), 1.0, SHOES, 24, 14)
         for i, (x, y, zz) in enumerate(shoe.positions):
             toe = -zz
             shoe.positions[i] = (
@@ -112,7 +121,7 @@ def arms(mesh, z):
                 ],
                 [0.0105, 0.0095, 0.007],
                 SKIN,
-                10,
+                8,
             )
         palm.tube(
             [
@@ -122,7 +131,7 @@ def arms(mesh, z):
             ],
             [0.013, 0.011, 0.008],
             SKIN,
-            10,
+            8,
         )
         mesh.append(palm, lambda p: add(p, (s * 0.249, 0.815, z - 0.068)))
 
@@ -133,6 +142,7 @@ def make_body(file):
     torso(mesh, z)
     legs(mesh, z)
     arms(mesh, z)
+    plain(mesh, (0.5, 0.4 / (ROUNDS + 1)))
 
     def contact(p, n, c):
         shade = 0.55 + 0.45 * smoothstep(0.0, 0.25, p[1])
@@ -148,10 +158,11 @@ def make_body(file):
     tall = 1 + BUST_LIFT / 1.40
     mesh.positions = [(x, y * tall, depth) for x, y, depth in mesh.positions]
     document = gltf.Document("Standing body")
-    document.node(
-        "body",
-        document.mesh(
-            "body", mesh, document.material("cloth", (0.80, 0.80, 0.80, 1), roughness=0.9)
-        ),
+    cloth = document.material(
+        "cloth",
+        (0.80, 0.80, 0.80, 1),
+        roughness=0.9,
+        texture=document.texture(jumper(), "jumper"),
     )
+    document.node("body", document.mesh("body", mesh, cloth))
     document.write(file)

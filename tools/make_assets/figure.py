@@ -2,7 +2,9 @@
 
 import math
 
+from gltf import png
 from mesh import Mesh, clamp
+from sky import srgb
 
 
 # Of the yoke and of the body's shoulders, m; the head's origin is 1.75 m above the floor.
@@ -55,20 +57,36 @@ def loft(mesh, table, centre_z, colour, sides=48, levels=40, power=1.0):
     mesh.grid(rows, colour, closed=True)
 
 
-def stitches(mesh, rows, colour):
-    """A grid of closed rings whose faces each have one colour: colour(column, row)."""
-    width = len(rows[0])
-    for j in range(len(rows) - 1):
-        for i in range(width):
-            k = (i + 1) % width
-            corners = [(j, i), (j, k), (j + 1, k), (j + 1, i)]
-            tone = colour(i, j)
-            first = [
-                mesh.vertex(rows[r][c], Mesh._grid_normal(rows, c, r, True), tone)
-                for r, c in corners
-            ]
-            mesh.triangle(first[0], first[1], first[2])
-            mesh.triangle(first[0], first[2], first[3])
+def knitted(mesh, rows, top, bottom):
+    """A grid of closed rings from bottom to top that shows a knitting's rows from `bottom` (v, of
+    its texture) to `top`.
+    """
+    width, height = len(rows[0]), len(rows)
+    uvs = [
+        [(i / width, bottom + (top - bottom) * j / (height - 1)) for i in range(width + 1)]
+        for j in range(height)
+    ]
+    base = len(mesh.positions)
+    mesh.grid([[*row, row[0]] for row in rows], (1, 1, 1), uvs=uvs)
+    for j in range(height):  # the seam is where the rings close
+        n = Mesh._grid_normal(rows, 0, j, True)
+        mesh.normals[base + j * (width + 1)] = mesh.normals[base + j * (width + 1) + width] = n
+
+
+def knitting(columns, rows, colour, size=4):
+    """PNG of stitches, `size` pixels wide and high; colour(column, row from the bottom), linear."""
+    pixels = bytearray()
+    for j in reversed(range(rows)):
+        line = bytearray()
+        for i in range(columns):
+            line += bytes(int(255 * srgb(v) + 0.5) for v in colour(i, j)) * size
+        pixels += line * size
+    return png(columns * size, rows * size, bytes(pixels))
+
+
+def plain(mesh, uv):
+    """The mesh with one place of the texture for all that has none."""
+    mesh.uvs += [uv] * (len(mesh.positions) - len(mesh.uvs))
 
 
 def along(profile, count):
@@ -87,14 +105,14 @@ def along(profile, count):
     return result
 
 
-def limb(mesh, points, radii, colour, sides=22):
+def limb(mesh, points, radii, colour, sides=18):
     """A smooth tube through points (Catmull-Rom), closed with round ends by its own radii."""
     fine_points, fine_radii = [], []
     n = len(points)
     for k in range(n - 1):
         p0, p1, p2, p3 = points[max(0, k - 1)], points[k], points[k + 1], points[min(n - 1, k + 2)]
-        for j in range(6):
-            t = j / 6
+        for j in range(4):
+            t = j / 4
             fine_points.append(
                 tuple(
                     0.5

@@ -159,14 +159,14 @@ def lantern(body, glow, centre, size):
             0.60,
             -0.61 * math.sin(a),
         )
-        iron.tube([low, high], 0.035, IRON, 4)
+        iron.tube([low, high], 0.037, IRON, 3, False)
     put(body, iron)
     put(glow, glass)
 
 
 def halo(mesh, centre, radius, strength, colour=(1.0, 0.56, 0.20), stretch=1.0):
     """A soft disc that faces the viewer: light scattered in cold air."""
-    sides, steps = 20, (0.0, 0.07, 0.18, 0.36, 0.62, 1.0)
+    sides, steps = 12, (0.0, 0.07, 0.18, 0.36, 0.62, 1.0)
     rings = []
     for t in steps:
         alpha = strength * (1 - t) ** 2.2
@@ -184,7 +184,8 @@ def halo(mesh, centre, radius, strength, colour=(1.0, 0.56, 0.20), stretch=1.0):
         for k in range(sides):
             n = (k + 1) % sides
             mesh.triangle(inner[k], outer[k], outer[n])
-            mesh.triangle(inner[k], outer[n], inner[n])
+            if inner is not rings[0]:
+                mesh.triangle(inner[k], outer[n], inner[n])
 
 
 def posts(body, glow, glows):

@@ -5,8 +5,9 @@ with three LED clusters. +x is the wearer's right, -z forward, the origin the re
 import math
 
 import gltf
-from figure import BUST_LIFT, CREAM, RED, SKIN, WOOL, along, between, loft, stitches
+from figure import BUST_LIFT, CREAM, RED, SKIN, WOOL, along, between, knitted, knitting, loft
 from mesh import Mesh, add, clamp, cross, mix, mul, placed, quaternion, smoothstep, unit
+from thin import thinned
 
 
 LEDS = ((-0.09, 0.0, -0.09), (0.0, 0.0, 0.0), (0.09, 0.0, -0.09))
@@ -143,7 +144,7 @@ def eyes(mesh):
                 return mix((0.10, 0.24, 0.30), (0.03, 0.07, 0.10), smoothstep(0.44, 0.56, toward))
             return (0.72, 0.70, 0.67)
 
-        ball.sphere((0, 0, 0), 0.0122, (1, 1, 1), 28, 24)
+        ball.sphere((0, 0, 0), 0.0122, (1, 1, 1), 18, 20)
         turned = Mesh().append(ball, placed(turn=quaternion((1, 0, 0), math.pi / 2)))
         turned.bake(lambda p, n, c: colour(p, n))
         mesh.append(turned, lambda p: add(p, centre))
@@ -153,8 +154,8 @@ def eyes(mesh):
             (math.radians(-80), math.radians(-22), 0.95),
         ):
             rows = []
-            for j in range(7):
-                e = low + (high - low) * j / 6
+            for j in range(5):
+                e = low + (high - low) * j / 4
                 rows.append(
                     [
                         (
@@ -162,7 +163,7 @@ def eyes(mesh):
                             0.0132 * math.sin(e),
                             -0.0132 * math.cos(e) * math.cos(a),
                         )
-                        for a in (math.radians(84 - 168 * i / 16) for i in range(17))
+                        for a in (math.radians(84 - 168 * i / 10) for i in range(11))
                     ]
                 )
             lid.grid(rows, mul(SKIN, tone * 0.92))
@@ -175,7 +176,7 @@ def helmet():
     """
     mesh = Mesh()
     centre, radii = (0, -0.040, -0.100), (0.0865, 0.1060, 0.0985)
-    sides, levels = 96, 26
+    sides, levels = 96, 12
 
     def edge(a):
         """Lower edge's elevation: high over the brow, low behind."""
@@ -210,7 +211,7 @@ def helmet():
         closed=True,
     )
     rim = [point(a, 0.0, 0.003) for a in angles] + [point(angles[0], 0.0, 0.003)]
-    mesh.tube(rim, 0.0040, TRIM, 8, False)
+    mesh.tube(rim, 0.0040, TRIM, 6, False)
     for side in (-1, 1):  # vents: dark slots from front to back
         for offset in (0.42, 0.80):
             slot = []
@@ -221,7 +222,7 @@ def helmet():
                 slot,
                 [0.001, 0.003, 0.0042, 0.005, 0.005, 0.005, 0.0042, 0.003, 0.001],
                 (0.006, 0.006, 0.007),
-                8,
+                6,
             )
     for side in (-1, 1):
         strap = [
@@ -257,10 +258,10 @@ def clusters(body, light):
                 (0.0118, -0.0005),
                 (0.0, -0.0005),
             ],
-            28,
+            20,
             (0.02, 0.02, 0.022),
         )
-        disc.lathe([(0.0117, -0.0002), (0.0, -0.0001)], 28, (0.75, 0.03, 0.02))
+        disc.lathe([(0.0117, -0.0002), (0.0, -0.0001)], 20, (0.75, 0.03, 0.02))
         for k in range(4):
             a = math.pi / 4 + math.pi / 2 * k
             led = Mesh()
@@ -268,8 +269,8 @@ def clusters(body, light):
                 (0.0060 * math.cos(a), 0.0, -0.0060 * math.sin(a)),
                 (0.0026, 0.0030, 0.0026),
                 (1.0, 0.42, 0.30),
-                12,
                 8,
+                5,
             )
             disc.append(led)
         body.append(holder, carry)
@@ -297,6 +298,7 @@ YOKE = (  # one motif of the knitted yoke, from the collar down; w: wool, c: cre
     "wwwcwwww",
 )
 STITCH = {"w": WOOL, "c": CREAM, "r": RED}
+ROUNDS, COLLAR = 22, 6  # rows of stitches
 
 
 def bust(mesh):
@@ -312,51 +314,62 @@ def bust(mesh):
         ),
         -0.078,
         lambda p, n: mul(SKIN, 0.62 + 0.38 * smoothstep(-0.150, -0.215, p[1])),
-        40,
-        24,
+        28,
+        10,
     )
-    sides, rounds = 144, 22
-    lift = BUST_LIFT
-    yoke = along(
-        (
-            (0.166, -0.400),
-            (0.160, -0.375),
-            (0.150, -0.350),
-            (0.136, -0.325),
-            (0.117, -0.302),
-            (0.098, -0.285),
-            (0.080, -0.272),
-        ),
-        rounds + 1,
-    )
-    angles = [2 * math.pi * i / sides for i in range(sides)]
+    angles = [2 * math.pi * i / 48 for i in range(48)]
 
-    def ring(r, y):
-        return [(r * 1.04 * math.cos(a), y + lift, -0.078 - r * 0.92 * math.sin(a)) for a in angles]
+    def rings(profile, count):
+        return [
+            [
+                (r * 1.04 * math.cos(a), y + BUST_LIFT, -0.078 - r * 0.92 * math.sin(a))
+                for a in angles
+            ]
+            for r, y in along(profile, count)
+        ]
+
+    yoke = (
+        (0.166, -0.400),
+        (0.160, -0.375),
+        (0.150, -0.350),
+        (0.136, -0.325),
+        (0.117, -0.302),
+        (0.098, -0.285),
+        (0.080, -0.272),
+    )
+    collar = (
+        (0.080, -0.272),
+        (0.0735, -0.262),
+        (0.0745, -0.243),
+        (0.0720, -0.236),
+        (0.066, -0.2345),
+        (0.062, -0.240),
+        (0.058, -0.26),
+    )
+    line = 1 / (ROUNDS + COLLAR + 1)
+    base = len(mesh.positions)
+    mesh.uvs = [(0.5, 0.4 * line)] * base
+    knitted(mesh, rings(yoke, 9), (1 + COLLAR) * line, 1 - 0.3 * line)
+    knitted(mesh, rings(collar, 10), 1.5 * line, (1 + COLLAR) * line)
+
+
+def jumper():
+    """The wool's texture: yoke, ribbed collar, and a white row for what is not knitted."""
 
     def stitch(i, j):
-        line = rounds - 1 - j - 2
-        tone = STITCH[YOKE[line][i % 8]] if 0 <= line < len(YOKE) else WOOL
-        return mul(tone, 0.62 if j >= rounds - 1 else 0.80 if j == rounds - 2 else 1.0)
+        if j == ROUNDS + COLLAR:
+            return (1, 1, 1)
+        if j >= ROUNDS:
+            return mul(WOOL, 0.62 + 0.28 * math.cos(math.pi / 2 * i))
+        row = ROUNDS - 1 - j - 2
+        tone = STITCH[YOKE[row][i % 8]] if 0 <= row < len(YOKE) else WOOL
+        return mul(tone, 0.62 if j >= ROUNDS - 1 else 0.80 if j == ROUNDS - 2 else 1.0)
 
-    stitches(mesh, [ring(r, y) for r, y in yoke], stitch)
-    collar = along(
-        (
-            (0.080, -0.272),
-            (0.0735, -0.262),
-            (0.0745, -0.243),
-            (0.0720, -0.236),
-            (0.066, -0.2345),
-            (0.062, -0.240),
-            (0.058, -0.26),
-        ),
-        14,
-    )
-    mesh.grid(
-        [ring(r, y) for r, y in collar],
-        lambda p, n: mul(WOOL, 0.62 + 0.28 * math.cos(math.atan2(-(p[2] + 0.078), p[0]) * 36)),
-        closed=True,
-    )
+    return knitting(144, ROUNDS + COLLAR + 1, stitch)
+
+
+def skin_look(n, c):
+    return (*n, *(2 * math.sqrt(v) for v in c[:3]))
 
 
 def make_head(file):
@@ -369,10 +382,18 @@ def make_head(file):
     shell.append(helmet())
     clusters(shell, light)
     under_helmet(solid)
+    # Seen from 1.5 m at the nearest.
+    solid = thinned(solid, 0.0001, lambda p: 1 / 1.5, skin_look, 0.01)
     document = gltf.Document("Head with helmet")
+    wool = document.material(
+        "wool",
+        (0.80, 0.80, 0.80, 1),
+        roughness=0.95,
+        texture=document.texture(jumper(), "jumper"),
+    )
     parts = (
         ("skin", solid, document.material("skin", (1.0, 1.0, 1.0, 1), roughness=0.55)),
-        ("wool", cloth, document.material("wool", (0.80, 0.80, 0.80, 1), roughness=0.95)),
+        ("wool", cloth, wool),
         ("helmet", shell, document.material("helmet", roughness=0.32)),
         (
             "leds",

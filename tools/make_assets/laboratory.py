@@ -11,6 +11,7 @@ import math
 import gltf
 from mesh import Mesh, add, cross, dot, mix, mul, placed, quaternion, scaled, smoothstep, sub, unit
 from noise import fbm, noise
+from thin import thinned
 from voxels import Voxels, hemisphere
 
 HALF, DEPTH, HEIGHT = 4.6, 8.6, 3.0
@@ -188,8 +189,8 @@ def chair(room, place, turn):
         part.sphere((foot[0], 0.03, foot[2]), 0.03, BLACK, 8, 6)
     part.tube([(0, 0.08, 0), (0, 0.44, 0)], 0.028, STEEL, 10)
     seat = [(0.0, 0.425), (0.21, 0.43), (0.238, 0.45), (0.235, 0.485), (0.20, 0.50), (0.0, 0.495)]
-    part.lathe(seat, 22, FABRIC)
-    part.sphere((0, 0.80, 0.255), (0.205, 0.215, 0.032), FABRIC, 24, 16)
+    part.lathe(seat, 18, FABRIC)
+    part.sphere((0, 0.80, 0.255), (0.205, 0.215, 0.032), FABRIC, 18, 10)
     part.tube([(0, 0.46, 0.16), (0, 0.50, 0.27), (0, 0.72, 0.285)], 0.02, STEEL, 8)
     room.mesh.append(part, placed((place[0], 0, place[1]), quaternion((0, 1, 0), turn)))
     x, z = place
@@ -449,7 +450,9 @@ def make_lab(file):
         glow.append(screen)
     planks(room.mesh)
     room.mesh.bake(Light(room.solid, windows))
+    # Seen from some 4 m, so that a thousandth of it is 4 mm.
+    whole = thinned(room.mesh.append(glow), 0.0005, lambda p: 1 / 4.0)
     document = gltf.Document("The wall laboratory")
     baked = document.material("baked", unlit=True)
-    document.node("room", document.mesh("room", room.mesh.append(glow), baked))
+    document.node("room", document.mesh("room", whole, baked))
     document.write(file)

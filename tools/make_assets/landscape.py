@@ -13,6 +13,8 @@ SNOW = (0.74, 0.82, 0.93)
 ROCK = (0.060, 0.066, 0.080)
 FOREST = (0.020, 0.034, 0.036)
 WINDOW = (1.0, 0.50, 0.14)
+EYE_REACH = 6.0  # metres: eyes and their images in the water are about as near to the origin
+FLAT_TREES = 270.0  # metres: from here on a tree is one triangle
 
 
 def shore(x, z):
@@ -60,8 +62,24 @@ def land_colour(position, normal, fine=True):
     return fogged(lit, position)
 
 
+def hidden(points):
+    """For a polar grid around the viewer, what nearer ridges hide from every eye (and from its
+    image in the water): a row of truth values for each ring.
+    """
+    width = len(points[0])
+    crest, behind = [-1.0] * width, []
+    for ring in points:
+        row = []
+        for i, (x, y, z) in enumerate(ring):
+            away = math.hypot(x, z)
+            row.append((y + EYE_REACH) / away < crest[i])
+            crest[i] = max(crest[i], (y - EYE_REACH) / away)
+        behind.append([all(row[max(0, i - 2) : i + 3]) for i in range(width)])
+    return behind
+
+
 def mountains(columns, rows):
-    """A polar grid around the viewer; parts under water are left out."""
+    """A polar grid around the viewer; parts under water or behind others are left out."""
     span = math.radians(206)
     radii = [170.0 * (6600.0 / 170.0) ** (j / (rows - 1)) for j in range(rows)]
     points = []
@@ -72,12 +90,15 @@ def mountains(columns, rows):
             x, z = r * math.sin(a), -r * math.cos(a)
             ring.append((x, WATER_Y + land_height(x, z), z))
         points.append(ring)
+    behind = [v for row in hidden(points) for v in row]
     full = Mesh()
     full.grid(points, (1, 1, 1))
     mesh, moved = Mesh(), {}
     for k in range(0, len(full.indices), 3):
         corner = full.indices[k : k + 3]
         if max(full.positions[i][1] for i in corner) <= WATER_Y + 0.01:
+            continue
+        if all(behind[i] for i in corner):
             continue
         for i in corner:
             if i not in moved:
@@ -320,6 +341,17 @@ def spruce(mesh, centre, base, height, seed, lamps):
         mesh.grid([rim, [(cx, y1, cz)] * 11], colour, closed=True)
 
 
+def behind_land(azimuth, away, top):
+    """Do nearer slopes hide a treetop (y in wall) from every eye?"""
+    line = (top + EYE_REACH) / away
+    for k in range(1, 20):
+        r = 170 + (away - 170) * k / 20
+        ground = WATER_Y + land_height(r * math.sin(azimuth), -r * math.cos(azimuth))
+        if (ground - EYE_REACH) / r > line:
+            return True
+    return False
+
+
 def forest(count=4600):
     """Snowy spruces on the lower slopes on both sides: they give the near mountains their scale."""
     mesh, dice = Mesh(), random.Random(19)
@@ -339,6 +371,8 @@ def forest(count=4600):
         tall = (5 + 7 * dice.random()) * (0.7 + 0.3 * share)
         wide, base = tall * (0.17 + 0.05 * dice.random()), WATER_Y + height - 0.8
         frost, turn = 0.10 + 0.5 * dice.random() ** 1.5, dice.random() * 2
+        if behind_land(azimuth, away, base + tall):
+            continue
         rim = [
             (x + wide * math.cos(a + turn), base, z - wide * math.sin(a + turn))
             for a in (0, math.pi / 2, math.pi, 3 * math.pi / 2)
@@ -348,16 +382,26 @@ def forest(count=4600):
             snowy = frost if p[1] > base + 0.1 else frost * 0.25
             return fogged(shade(p, unit((n[0], 0.4, n[2])), mix(FOREST, SNOW, snowy)), p)
 
+        top = (x, base + tall, z)
+        if away > FLAT_TREES:
+            across = (math.cos(azimuth), 0, math.sin(azimuth))
+            toward = (-x / away, 0.25, -z / away)
+            for s in (-1, 1, 0):
+                side = s * 0.85 * wide
+                p = (x + side * across[0], base, z + side * across[2]) if s else top
+                n = unit(add(toward, mul(across, s)))
+                mesh.indices.append(mesh.vertex(p, n, colour(p, n)))
+            continue
         for k in range(4):
-            a, b, top = rim[k], rim[(k + 1) % 4], (x, base + tall, z)
+            a, b = rim[k], rim[(k + 1) % 4]
             n = unit((0.5 * (a[0] + b[0]) - x, 0.25 * wide, 0.5 * (a[2] + b[2]) - z))
             mesh.triangle(*(mesh.vertex(p, n, colour(p, n)) for p in (a, b, top)))
     return mesh
 
 
 def islands():
-    """All islets with what stands on them."""
-    mesh = Mesh()
+    """All islets, and what stands on them."""
+    ground, built = Mesh(), Mesh()
     church_x, church_z, church_y = 13.5, -52.0, WATER_Y + 2.55
     lamps = [
         ((church_x - 0.5, church_y + 1.6, church_z + 9.5), 2.6, 6.5),
@@ -365,8 +409,8 @@ def islands():
         ((church_x + 6, church_y + 1.4, church_z + 3), 0.9, 4),
         ((church_x - 0.3, church_y + 6.4, church_z + 7.5), 1.6, 6),
     ]
-    mesh.append(islet((church_x, church_z), 19, 3.1, 3, lamps, 80, 22))
-    mesh.append(
+    ground.append(islet((church_x, church_z), 19, 3.1, 3, lamps, 80, 22))
+    built.append(
         lit_building(stave_church(), (church_x, church_z), church_y - 0.3, -0.32, lamps, 1.2)
     )
     for k, (dx, dz, h) in enumerate(
@@ -379,7 +423,7 @@ def islands():
             (-7.4, -7, 7),
         )
     ):
-        spruce(mesh, (church_x + dx, church_z + dz), church_y - 0.9, h, 50 + k, lamps)
+        spruce(built, (church_x + dx, church_z + dz), church_y - 0.9, h, 50 + k, lamps)
     reds = ((0.36, 0.045, 0.030), (0.40, 0.060, 0.034), (0.45, 0.30, 0.10))
     village = (
         (-21.5, -34, 0.42, 0),
@@ -400,11 +444,12 @@ def islands():
             ((x - 4.0 * math.cos(turn), WATER_Y + 2.4, z + 4 * math.sin(turn)), 0.6, 2.4),
         ]
         back = (x - 3.2 * math.sin(turn), z - 3.2 * math.cos(turn))
-        mesh.append(islet(back, 8.5, 1.5 + 0.4 * (k % 3), 60 + k, lamps, 44, 12))
+        ground.append(islet(back, 8.5, 1.5 + 0.4 * (k % 3), 60 + k, lamps, 44, 12))
         size = (5.4 + 0.8 * (k % 2), 2.3, 4.0)
-        mesh.append(lit_building(cabin(size, reds[tone], 1.3), (x, z), WATER_Y + 1.15, turn, lamps))
+        house = cabin(size, reds[tone], 1.3)
+        built.append(lit_building(house, (x, z), WATER_Y + 1.15, turn, lamps))
         spruce(
-            mesh, (back[0] - 3.5, back[1] - 2.5), WATER_Y + 0.7, 4.2 + 1.3 * (k % 3), 80 + k, lamps
+            built, (back[0] - 3.5, back[1] - 2.5), WATER_Y + 0.7, 4.2 + 1.3 * (k % 3), 80 + k, lamps
         )
     rocks = random.Random(4)
     for k in range(16):
@@ -413,5 +458,5 @@ def islands():
         if abs(x) < 6.5 and z > -10:
             x += side * 3
         size = 0.5 + 1.5 * rocks.random() ** 2
-        mesh.append(islet((x, z), size, size * 0.42, 200 + k, [], 22, 8))
-    return mesh
+        ground.append(islet((x, z), size, size * 0.42, 200 + k, [], 22, 8))
+    return ground, built

@@ -19,7 +19,7 @@ SILVER = (0.72, 0.78, 0.84)
 def ring(radius, width, thick, colour, ticks=0):
     """A flat hoop about the y axis, polished, with raised marks."""
     mesh = Mesh()
-    sides = 104
+    sides = 36 + int(80 * radius)
     r0, r1, h = radius - thick / 2, radius + thick / 2, width / 2
     e = min(thick, width) * 0.22
     profile = [
@@ -43,6 +43,7 @@ def ring(radius, width, thick, colour, ticks=0):
             (r1 - 0.002, -h * (0.92 if long else 0.45), -half),
             (r1 + 0.0035, h * (0.92 if long else 0.45), half),
             mix(colour, (1, 0.9, 0.7), 0.5),
+            faces="+x-y+y-z+z" if long else "+x-z+z",
         )
         mesh.append(mark, placed(turn=quaternion((0, 1, 0), a)))
     return mesh
@@ -53,7 +54,7 @@ def turned(mesh, axis, degrees):
 
 
 def knob(mesh, place, radius, colour):
-    mesh.sphere(place, radius, colour, 16, 10)
+    mesh.sphere(place, radius, colour, 12, 8)
 
 
 def planet(radius, colour, seed, ringed=False):
@@ -67,7 +68,7 @@ def planet(radius, colour, seed, ringed=False):
         )
 
     ball = Mesh()
-    ball.sphere((0, 0, 0), 1.0, marble, 30, 18)
+    ball.sphere((0, 0, 0), 1.0, marble, *((30, 18) if radius > 0.03 else (22, 14)))
     mesh.append(ball, placed(scale=radius))
     if ringed:
         for side in (1, -1):
@@ -84,7 +85,7 @@ def sun():
         g = fbm(p[0] * 5 + 3 + 2 * p[2], p[1] * 5 + 8 - p[2], 4, 77)
         return mix((1.0, 0.45, 0.10), (1.0, 0.90, 0.58), smoothstep(0.25, 0.62, g))
 
-    mesh.sphere((0, 0, 0), 1.0, glow, 48, 30)
+    mesh.sphere((0, 0, 0), 1.0, glow, 36, 22)
     return Mesh().append(mesh, placed(scale=0.088))
 
 
@@ -146,7 +147,7 @@ def planets(document, root, metal, enamel):
     for k, (name, orbit, radius, colour, inclination, turns, phase) in enumerate(family):
         tilt = quaternion((0.4 * math.cos(k), 0, 1), math.radians(inclination))
         arm = Mesh()
-        arm.tube([(0.10, 0, 0), (orbit - radius, 0, 0)], 0.0035, BRASS, 8)
+        arm.tube([(0.10, 0, 0), (orbit - radius, 0, 0)], 0.0035, BRASS, 6)
         knob(arm, (orbit - radius * 1.02, 0, 0), 0.0085, BRASS)
         carrier = document.node(name + " arm", document.mesh(name + " arm", arm, metal), root)
         spin(document, carrier, (0, 1, 0), turns, tilt, phase)

@@ -14,16 +14,33 @@ import orrery
 import sky
 from light import WATER_Y, fogged, shade
 from mesh import Mesh, clamp, mul, placed, quaternion
+from thin import thinned
 
 REFLECTED = 0.86
 EYES = [
     (x, y, z) for x in (-3, 3) for y in (-1.15, 2) for z in (0.05, 9)
 ]  # every eye is between these
+# Radians that thinning may cost: of what is thin itself, near the screen, far away.
+DELICATE, FINE, COARSE = 0.0003, 0.0007, 0.0022
 
 
-def mirrored(mesh, ripple=True):
-    image = mesh.mirrored(WATER_Y)
-    return hall.rippled(image) if ripple else image
+def apparent(p):
+    """Radians per metre at a place, from the nearest eye of those that matter; images in moving
+    water need less.
+    """
+    aside = (max(0.0, abs(p[0]) - 1.2), max(0.0, abs(p[1] - 0.1) - 0.4), max(0.0, 0.4 - p[2]))
+    share = 1.0 if p[1] > WATER_Y - 0.05 else 0.6
+    return share / max(0.6, math.hypot(*aside))
+
+
+def rippled_image(mesh):
+    return hall.rippled(mesh.mirrored(WATER_Y))
+
+
+def with_image(mesh, image, tolerance):
+    """Both as they are seen, thinned; the image is dimmed."""
+    whole = Mesh().append(mesh).append(image, tint=(REFLECTED, REFLECTED, REFLECTED))
+    return thinned(whole.seen_from(EYES), tolerance, apparent)
 
 
 def add_static(document, name, mesh, material, mirror=None):
@@ -41,12 +58,14 @@ def far_scene(document, baked):
         "sky", document.mesh("sky", dome, document.material("sky", unlit=True, texture=texture))
     )
     document.node("stars", document.mesh("stars", sky.stars(), baked))
-    mountains = landscape.mountains(390, 66)
+    mountains = thinned(landscape.mountains(390, 66), COARSE, apparent)
     add_static(document, "mountains", mountains, baked, mountains.mirrored(WATER_Y))
     forest = landscape.forest()
     add_static(document, "forest", forest, baked, forest.mirrored(WATER_Y))
-    islands = landscape.islands()
-    add_static(document, "islands", islands, baked, mirrored(islands, False))
+    ground, built = landscape.islands()
+    islands = with_image(ground, ground.mirrored(WATER_Y), COARSE)
+    islands.append(with_image(built, built.mirrored(WATER_Y), FINE))
+    add_static(document, "islands", islands, baked)
 
 
 def near_scene(document, baked):
@@ -59,17 +78,18 @@ def near_scene(document, baked):
     timber.bake(hall.timber_light(lights))
     hall.posts(iron, glow, places)
     iron.bake(lambda p, n, c: fogged(shade(p, n, mul(c, 1.6), lights), p, 1 / 260.0))
-    standing = Mesh().append(timber).append(iron).append(glow)
+    slight = Mesh().append(iron).append(glow)
     reeds = hall.reeds().bake(
         lambda p, n, c: shade(p, n, c, lights, 0.4 + 0.6 * clamp((p[1] - WATER_Y) * 3))
     )
-    standing.append(reeds)
+    slight.append(reeds)
     frame = Mesh()
     hall.niche(frame)
     hall.mullions(frame)
     frame.bake(hall.niche_light(lights))
-    image = mirrored(standing)
-    add_static(document, "hall", Mesh().append(standing).append(frame), baked, image)
+    whole = with_image(Mesh().append(timber).append(frame), rippled_image(timber), FINE)
+    whole.append(with_image(slight, rippled_image(slight), DELICATE))
+    add_static(document, "hall", whole, baked)
     return places
 
 
@@ -87,6 +107,7 @@ def boats(document, baked):
         lamp = [(place, 1.4, 1.5)]
         world.bake(lambda p, n, c: fogged(shade(p, n, c, lights + lamp), p, 1 / 260.0))
         world.append(glow)
+        world = thinned(world, FINE, apparent)
         for image in (False, True):
             part = world.mirrored(WATER_Y) if image else world
             local = Mesh().append(part, lambda p: (p[0] - x, p[1] - WATER_Y, p[2] - z))
@@ -119,7 +140,8 @@ def rock(document, node, place, phase, image):
 def glass(document, places):
     """All that is blended, from far to near: the water's surface, then the halos."""
     surface = document.material("water", unlit=True, blend=True)
-    document.node("water", document.mesh("water", hall.water(), surface))
+    water = thinned(hall.water(), 2.5 * COARSE, apparent)
+    document.node("water", document.mesh("water", water, surface))
     halos = Mesh()
     for (x, y, z), radius, strength in sorted(places, key=lambda p: p[0][2]):
         hall.halo(halos, (x, 2 * WATER_Y - y, z), 0.42 * radius, 0.55 * strength, stretch=2.6)

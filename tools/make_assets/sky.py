@@ -147,7 +147,7 @@ def texture():
 
 def dome(mirror):
     """The upper half around the view; `mirror`: its image in the water, a little dimmer."""
-    columns, rows = 72, 26
+    columns, rows = 40, 14
     mesh = Mesh()
     points, uvs = [], []
     for j in range(rows + 1):
@@ -183,12 +183,13 @@ def stars(count=620):
             math.sin(elevation),
             -math.cos(elevation) * math.cos(azimuth),
         )
+        n = mul(towards, -1)
         right = unit(cross(towards, (0, 1, 0)))
         up = cross(right, towards)
         centre = mul(towards, RADIUS * 0.985)
         warm = dice.random()
         glow = 0.22 + 0.78 * magnitude
         colour = mul(mix((0.72, 0.85, 1.0), (1.0, 0.86, 0.68), warm**2), glow)
-        corners = [add(centre, mul(d, size)) for d in (mul(right, -1), mul(up, -1), right, up)]
-        mesh.face(corners, colour)
+        corners = (add(mul(right, -0.95), mul(up, -0.6)), add(mul(right, 0.95), mul(up, -0.6)), up)
+        mesh.triangle(*(mesh.vertex(add(centre, mul(d, 1.15 * size)), n, colour) for d in corners))
     return mesh
