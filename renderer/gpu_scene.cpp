@@ -22,6 +22,7 @@ struct GpuMaterial {
   glm::vec4 base_colour;
   glm::vec4 emissive_metallic;
   glm::vec4 roughness_cutoff_unlit;  // and 1 where there is a texture
+  glm::vec4 srgb;                    // 1 where vertex colours are sRGB
 };
 struct GpuNode {
   glm::mat4 world_from_node;
@@ -29,13 +30,22 @@ struct GpuNode {
 };
 static_assert(sizeof(GpuMaterial) <= kBlockBytes && sizeof(GpuNode) <= kBlockBytes);
 
-GpuMaterial gpu_material(const Material& material) {
+/// As light; for measuring, the file's numbers as they are.
+Eigen::Vector3f light_of(const Eigen::Vector3f& colour, ColourCoding coding, Style style) {
+  if (coding == ColourCoding::linear || style == Style::unlit) return colour;
+  return colour.unaryExpr(&linear_from_srgb);
+}
+
+GpuMaterial gpu_material(const Material& material, ColourCoding coding, Style style) {
   const float cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
-  const Eigen::Vector4f& base = material.base_colour;
-  return {{base.x(), base.y(), base.z(), base.w()},
-          {material.emissive.x(), material.emissive.y(), material.emissive.z(), material.metallic},
+  const Eigen::Vector3f base = light_of(material.base_colour.head<3>(), coding, style);
+  const Eigen::Vector3f emissive = light_of(material.emissive, coding, style);
+  const float srgb = coding == ColourCoding::srgb ? 1.0f : 0.0f;
+  return {{base.x(), base.y(), base.z(), material.base_colour.w()},
+          {emissive.x(), emissive.y(), emissive.z(), material.metallic},
           {material.roughness, cutoff, material.unlit ? 1.0f : 0.0f,
-           material.base_colour_texture >= 0 ? 1.0f : 0.0f}};
+           material.base_colour_texture >= 0 ? 1.0f : 0.0f},
+          {srgb, 0, 0, 0}};
 }
 
 /// The box around a moved box: its middle moves, its half size by the absolute matrix (J. Arvo,
@@ -57,7 +67,8 @@ gl::Texture upload_texture(const Image& image, Style style) {
                       GL_UNSIGNED_BYTE, image.pixels.data());
   glGenerateTextureMipmap(texture.name());
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, 8.0f);
+  // For measuring nothing may blur: llvmpipe's anisotropic filter mixes neighbours at any level.
+  if (style == Style::lit) glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, 8.0f);
   return texture;
 }
 
@@ -73,7 +84,7 @@ GpuScene::GpuScene(const Scene& scene, Style style) : triangle_count_(scene.tria
   skeleton_.animations = scene.animations;
   list_draws(scene);
   upload_geometry(scene);
-  upload_materials(scene);
+  upload_materials(scene, style);
   upload_textures(scene, style);
   nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * kBlockBytes, GL_DYNAMIC_STORAGE_BIT);
   check_memory(scene.name);
@@ -110,10 +121,10 @@ void GpuScene::upload_geometry(const Scene& scene) {
   }
 }
 
-void GpuScene::upload_materials(const Scene& scene) {
+void GpuScene::upload_materials(const Scene& scene, Style style) {
   std::vector<std::byte> blocks(scene.materials.size() * kBlockBytes);
   for (std::size_t index = 0; index < scene.materials.size(); ++index) {
-    const GpuMaterial material = gpu_material(scene.materials[index]);
+    const GpuMaterial material = gpu_material(scene.materials[index], scene.colours, style);
     std::memcpy(&blocks[index * kBlockBytes], &material, sizeof(material));
   }
   materials_ = gl::make_buffer(blocks.data(), blocks.size());

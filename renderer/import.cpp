@@ -202,7 +202,6 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
         materials.import(source_mesh.mMaterialIndex, source_mesh.HasVertexColors(0));
     const MeshOptions options = {.uv_channel = material.uv_channel,
                                  .texture_from_uv = material.texture_from_uv,
-                                 .colours_linear = style == MaterialStyle::gltf,
                                  .own_normals = loader == kBlenderLoader};
     std::optional<Mesh> mesh = append_mesh(source_mesh, options, scene, losses);
     if (!mesh) continue;
@@ -210,6 +209,7 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
     mesh_of_source[i] = static_cast<int>(scene.meshes.size());
     scene.meshes.push_back(*mesh);
   }
+  scene.colours = style == MaterialStyle::gltf ? ColourCoding::linear : ColourCoding::srgb;
   scene.materials = materials.take();
   scene.textures = textures.take();
   warn_of(losses, result.warnings);

@@ -31,13 +31,9 @@ std::uint8_t byte_of(float value) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
 }
 
-Rgba8 colour_of(const aiColor4D& colour, bool linear) {
-  const auto decoded = [&](float value) {
-    if (!std::isfinite(value)) return 1.0f;
-    return linear ? value : linear_from_srgb(std::clamp(value, 0.0f, 1.0f));
-  };
-  return {byte_of(decoded(colour.r)), byte_of(decoded(colour.g)), byte_of(decoded(colour.b)),
-          byte_of(std::isfinite(colour.a) ? colour.a : 1.0f)};
+Rgba8 colour_of(const aiColor4D& colour) {
+  const auto byte = [](float value) { return byte_of(std::isfinite(value) ? value : 1.0f); };
+  return {byte(colour.r), byte(colour.g), byte(colour.b), byte(colour.a)};
 }
 
 /// Some writers leave all colours black or all alpha zero where they mean that there is none.
@@ -62,7 +58,6 @@ class VertexReader {
       : mesh_(mesh),
         texture_from_uv_(options.texture_from_uv),
         own_normals_(options.own_normals),
-        colours_linear_(options.colours_linear),
         colour_use_(mesh),
         uv_channel_(mesh.HasTextureCoords(options.uv_channel) ? options.uv_channel : 0) {}
 
@@ -81,7 +76,7 @@ class VertexReader {
     vertex.normal_in_node = normal;
     if (mesh_.HasTextureCoords(uv_channel_))
       vertex.uv = uv_of(mesh_.mTextureCoords[uv_channel_][index], texture_from_uv_);
-    if (colour_use_.rgb) vertex.colour = colour_of(mesh_.mColors[0][index], colours_linear_);
+    if (colour_use_.rgb) vertex.colour = colour_of(mesh_.mColors[0][index]);
     if (!colour_use_.alpha) vertex.colour[3] = 255;
     return vertex;
   }
@@ -90,7 +85,6 @@ class VertexReader {
   const aiMesh& mesh_;
   UvTransform texture_from_uv_;
   bool own_normals_;
-  bool colours_linear_;
   ColourUse colour_use_;
   unsigned uv_channel_;
 };
@@ -160,10 +154,6 @@ Box3f bounds_of(const Scene& scene, const Mesh& mesh) {
 }
 
 }  // namespace
-
-float linear_from_srgb(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
 
 std::optional<Mesh> append_mesh(const aiMesh& source, const MeshOptions& options, Scene& scene,
                                 MeshLosses& losses) {

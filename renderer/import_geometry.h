@@ -18,8 +18,7 @@ using UvTransform = Eigen::Matrix<float, 2, 3>;
 struct MeshOptions {
   unsigned uv_channel = 0;  ///< which of the mesh's texture coordinates the material uses
   UvTransform texture_from_uv = UvTransform::Identity();
-  bool colours_linear = false;  ///< otherwise its vertex colours are sRGB
-  bool own_normals = false;     ///< the file's are not to be trusted: compute all
+  bool own_normals = false;  ///< the file's are not to be trusted: compute all
 };
 
 /// What was left out, over all meshes.
@@ -33,8 +32,5 @@ struct MeshLosses {
 /// Appends vertices and indices; the result's material is 0. Empty when no triangle is left.
 std::optional<Mesh> append_mesh(const aiMesh& source, const MeshOptions& options, Scene& scene,
                                 MeshLosses& losses);
-
-/// The sRGB transfer function (IEC 61966-2-1), decoding: [0, 1] -> [0, 1].
-float linear_from_srgb(float encoded);
 
 }  // namespace vindu

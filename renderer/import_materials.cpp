@@ -9,8 +9,8 @@
 namespace vindu {
 namespace {
 
-/// What a surface of unknown material looks like: light grey.
-constexpr float kPlainGrey = 0.6f;
+/// What a surface of unknown material looks like: light grey, in sRGB.
+constexpr float kPlainGrey = 0.8f;
 
 std::optional<float> number(const aiMaterial& material, const char* key, unsigned type,
                             unsigned index) {
@@ -44,9 +44,7 @@ std::string texture_name(const aiMaterial& material, aiTextureType type) {
 
 float unit(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
-Eigen::Vector3f linear(const Eigen::Vector3f& srgb) {
-  return srgb.unaryExpr([](float value) { return linear_from_srgb(unit(value)); });
-}
+Eigen::Vector3f unit(const Eigen::Vector3f& colour) { return colour.cwiseMax(0).cwiseMin(1); }
 
 /// KHR_texture_transform: offset + rotation * scale * uv, with the rotation matrix [c s; -s c].
 /// Assimp 5.2's loader rewrites it for a rotation about the texture's centre, which its own
@@ -171,7 +169,7 @@ Eigen::Vector3f legacy_tint(const Conversion& conversion, bool has_texture,
     return Eigen::Vector3f::Ones();
   if (made_up && has_vertex_colours) return Eigen::Vector3f::Ones();
   if (made_up || !diffuse) return Eigen::Vector3f::Constant(kPlainGrey);
-  return linear(diffuse->head<3>());
+  return unit(Eigen::Vector3f(diffuse->head<3>()));
 }
 
 /// Writers disagree on whether 0 or 1 is opaque; a material that nobody could see is taken as
@@ -210,7 +208,7 @@ void convert_legacy(Conversion& conversion, bool has_vertex_colours) {
   material.base_colour.head<3>() = legacy_tint(conversion, has_texture, has_vertex_colours);
   convert_legacy_alpha(conversion);
   const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
-  if (emissive) conversion.use_emissive(linear(emissive->head<3>()));
+  if (emissive) conversion.use_emissive(unit(Eigen::Vector3f(emissive->head<3>())));
   material.roughness = legacy_roughness(source);
   if (const std::optional<float> metallic = number(source, AI_MATKEY_METALLIC_FACTOR)) {
     material.metallic = unit(*metallic);

@@ -91,6 +91,10 @@ Box3f moved(const Box3f& box_in_node, const Eigen::Matrix4f& scene_from_node) {
 
 }  // namespace
 
+float linear_from_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
 std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s) {
   std::vector<Eigen::Matrix4f> transforms = transforms_at_rest(scene.nodes);
   if (!scene.animations.empty()) {

@@ -19,13 +19,14 @@ struct Vertex {
   Eigen::Vector3f position_in_node = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal_in_node = Eigen::Vector3f::UnitZ();
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< (0, 0) is the upper left of the texture
-  Rgba8 colour = {255, 255, 255, 255};           ///< linear, times the material's base colour
+  Rgba8 colour = {255, 255, 255, 255};           ///< times the material's base colour
 };
 static_assert(sizeof(Vertex) == 36);
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// Metallic-roughness as glTF 2.0 (section 3.9) defines it. Colours are linear.
+/// Metallic-roughness as glTF 2.0 (section 3.9) defines it. Colours are coded as Scene::colours
+/// says.
 struct Material {
   std::string name;
   Eigen::Vector4f base_colour = Eigen::Vector4f::Ones();
@@ -76,6 +77,13 @@ struct Animation {
   std::vector<AnimationChannel> channels;
 };
 
+/// How a file's numbers for the colours of materials and vertices mean light. Textures are always
+/// sRGB.
+enum class ColourCoding { linear, srgb };
+
+/// The sRGB transfer function (IEC 61966-2-1), decoding: [0, 1] -> [0, 1].
+float linear_from_srgb(float encoded);
+
 struct Scene {
   std::string name;
   std::vector<Vertex> vertices;
@@ -85,6 +93,7 @@ struct Scene {
   std::vector<Image> textures;      ///< sRGB
   std::vector<Node> nodes;
   std::vector<Animation> animations;
+  ColourCoding colours = ColourCoding::linear;
   std::optional<double> metres_per_unit;  ///< empty: the file does not say
 
   std::size_t triangle_count() const { return indices.size() / 3; }

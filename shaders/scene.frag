@@ -1,18 +1,13 @@
 // Surfaces. In: world position and normal, material. Out: linear light after the tone curve (the framebuffer encodes
 // sRGB), or with MEASURE the base colour's bytes as they are, by a shader that takes no derivatives.
 #include "environment.glsl"
+#include "material.glsl"
 
 layout(location = 0) in vec3 position_in_world;
 layout(location = 1) in vec3 normal_in_world;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
 
-layout(std140, binding = 1) uniform Material {
-  vec4 base_colour;             // linear
-  vec4 emissive_metallic;       // rgb, metallic
-  vec4 roughness_cutoff_unlit;  // roughness, alpha cutoff (negative: none), unlit, has a texture
-}
-material;
 layout(binding = 0) uniform sampler2D base_colour_texture;
 uniform vec3 eye_in_world;
 

@@ -99,6 +99,29 @@ TEST_F(MaterialsGl, EncodesLinearColoursOfUnlitMaterialsToSrgb) {
   EXPECT_THAT(image.at(32, 32), IsNearColour(Rgba8{128, 188, 255, 255}, 1));
 }
 
+TEST_F(MaterialsGl, ShowsColoursOfSrgbFilesAsTheyAreWritten) {
+  Scene by_vertex = square_scene(plain(1, 1, 1));
+  by_vertex.colours = ColourCoding::srgb;
+  for (Vertex& vertex : by_vertex.vertices) vertex.colour = {9, 128, 251, 255};
+  EXPECT_THAT(draw_on_stage(by_vertex, Style::lit).at(32, 32),
+              IsNearColour(Rgba8{9, 128, 251, 255}, 1));
+
+  Scene by_material = square_scene(plain(level(9), level(128), level(251)));
+  by_material.colours = ColourCoding::srgb;
+  EXPECT_THAT(draw_on_stage(by_material, Style::lit).at(32, 32),
+              IsNearColour(Rgba8{9, 128, 251, 255}, 1));
+}
+
+TEST_F(MaterialsGl, LightsTrianglesOfTheWrongWindingByTheirNormals) {
+  Material both = plain(.4f, .4f, .4f);
+  both.unlit = false;
+  both.double_sided = true;
+  Scene wound_back = square_scene(both);
+  for (std::size_t i = 0; i < wound_back.indices.size(); i += 3)
+    std::swap(wound_back.indices[i], wound_back.indices[i + 1]);
+  EXPECT_EQ(draw_on_stage(wound_back, Style::lit), draw_on_stage(square_scene(both), Style::lit));
+}
+
 TEST_F(MaterialsGl, LightsOtherMaterials) {
   Material lit = plain(.2f, .2f, .2f);
   lit.unlit = false;

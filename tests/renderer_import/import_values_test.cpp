@@ -247,11 +247,12 @@ TEST(ImportGltf, AnimationMovesAndTurnsItsNode) {
   EXPECT_NEAR(scene_from_node(2, 0), -std::sqrt(0.5), 1e-5);
 }
 
-TEST(ImportObj, DiffuseColourIsDecodedFromSrgb) {
-  const Material material =
-      obj_with_material("Kd 0.5 1 0\nKs 1 1 1\nNs 98\n").scene.materials.at(0);
+TEST(ImportObj, DiffuseColourIsKeptAndMeantAsSrgb) {
+  const Scene scene = obj_with_material("Kd 0.5 1 0\nKs 1 1 1\nNs 98\n").scene;
+  const Material& material = scene.materials.at(0);
 
-  EXPECT_NEAR(material.base_colour.x(), 0.21404, 1e-4);  // IEC 61966-2-1
+  EXPECT_EQ(scene.colours, ColourCoding::srgb);
+  EXPECT_NEAR(material.base_colour.x(), 0.5, 1e-6);
   EXPECT_NEAR(material.base_colour.y(), 1, 1e-6);
   EXPECT_NEAR(material.base_colour.z(), 0, 1e-6);
   EXPECT_EQ(material.metallic, 0);
@@ -288,7 +289,7 @@ TEST(ImportObj, DiffuseColourTintsTheTextureUnlessItIsBlack) {
   const Material black =
       obj_with_material("Kd 0 0 0\nmap_Kd Maps/Paint.png\n").scene.materials.at(0);
 
-  EXPECT_NEAR(tinted.base_colour.x(), 0.21404, 1e-4);
+  EXPECT_NEAR(tinted.base_colour.x(), 0.5, 1e-6);
   EXPECT_EQ(black.base_colour, Eigen::Vector4f::Ones());
 }
 
@@ -331,11 +332,12 @@ TEST(ImportObj, TexturesOverTheLimitAreLeftOut) {
   EXPECT_EQ(result.warnings.size(), 1u);
 }
 
-TEST(ImportObj, VertexColoursAreDecodedFromSrgb) {
+TEST(ImportObj, VertexColoursAreKeptAndMeantAsSrgb) {
   const ImportResult result =
       imported("a.obj", "v 0 0 0 0.5 1 0\nv 1 0 0 0.5 1 0\nv 0 1 0 0.5 1 0\nf 1 2 3\n");
 
-  EXPECT_THAT(result.scene.vertices, Each(testing::Field(&Vertex::colour, Rgba8{55, 255, 0, 255})));
+  EXPECT_THAT(result.scene.vertices,
+              Each(testing::Field(&Vertex::colour, Rgba8{128, 255, 0, 255})));
   EXPECT_EQ(result.scene.materials.at(0).base_colour, Eigen::Vector4f::Ones());
 }
 
