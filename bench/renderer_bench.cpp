@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 
 #include "core/site.h"
@@ -66,13 +67,14 @@ void wall_of_28_tiles(benchmark::State& state, Look look, const char* picture) {
   state.counters["ratio_to_one_picture"] = best_frame_s(tiles) / best_frame_s(one);
   state.counters["culled_share"] = static_cast<double>(frame.count.culled) / frame.count.draws;
   state.counters["triangles"] = static_cast<double>(show().triangle_count());
+  std::filesystem::create_directories("out");
   write_png(tiles.picture().read(), picture);
 }
-BENCHMARK_CAPTURE(wall_of_28_tiles, lit_1_sample, Look{Style::lit, 1}, "wall_lit_1.png")
+BENCHMARK_CAPTURE(wall_of_28_tiles, lit_1_sample, Look{Style::lit, 1}, "out/wall_lit_1.png")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(wall_of_28_tiles, lit_4_samples, Look{Style::lit, 4}, "wall_lit_4.png")
+BENCHMARK_CAPTURE(wall_of_28_tiles, lit_4_samples, Look{Style::lit, 4}, "out/wall_lit_4.png")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(wall_of_28_tiles, unlit, Look{Style::unlit}, "wall_unlit.png")
+BENCHMARK_CAPTURE(wall_of_28_tiles, unlit, Look{Style::unlit}, "out/wall_unlit.png")
     ->Unit(benchmark::kMillisecond);
 
 void one_picture_of_the_same_pixels(benchmark::State& state) {
