@@ -12,5 +12,5 @@ sources=("$@")
 log=$root/build/dev/tidy.log
 run-clang-tidy -quiet -p "$root/build/dev" -j "$(jobs)" "${sources[@]/#/^$root/}" \
   >"$log" 2>/dev/null && exit 0
-grep -E -A4 '(error|warning):' "$log"
+sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -a -E -A4 '(error|warning):'
 die "clang-tidy found something; its whole log is build/dev/tidy.log."

@@ -10,7 +10,6 @@ namespace vindu {
 namespace {
 
 using testing::IsNearMatrix;
-using testing::IsNearPoint;
 using testing::Random;
 using testing::tromso_grid;
 

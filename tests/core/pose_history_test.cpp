@@ -39,7 +39,7 @@ TEST(PoseHistory, AnswersExactlyAtASample) {
     ASSERT_TRUE(pose);
     EXPECT_EQ(pose->answer, PoseAnswer::exact);
     EXPECT_EQ(pose->sample.capture_time, at_ms(time_ms));
-    EXPECT_THAT(pose->sample.room_from_head.translation, IsNearPoint(Vec3(time_ms / 10, 0, 0), 0));
+    EXPECT_THAT(pose->sample.room_from_head.translation, IsNearPoint(Vec3(time_ms / 10., 0, 0), 0));
   }
 }
 
