@@ -73,14 +73,7 @@ Site screen_site(const ViewOptions& options, const ScreenReport& screen) {
 TileCorners content_corners(const Wall& screen, const Window& window) {
   const Tile& tile = screen.tiles.front();
   if (tile.mount != TileMount{}) return tile.corners;
-  const SizePx size = window.size();
-  const Vec2 pitch_m(tile.corners.width_m() / tile.width_px,
-                     tile.corners.height_m() / tile.height_px);
-  const Vec2 upper_left = window.content_on_screen_px().cwiseProduct(pitch_m);
-  const Vec3 screen_upper_left = tile.corners.upper_left_in_wall;
-  const Vec3 left_top = screen_upper_left + Vec3(upper_left.x(), -upper_left.y(), 0);
-  const Vec3 left_bottom = left_top - Vec3(0, size.height * pitch_m.y(), 0);
-  return {left_bottom, left_bottom + Vec3(size.width * pitch_m.x(), 0, 0), left_top};
+  return part_of_tile(tile, window.content_on_screen_px(), window.size());
 }
 
 /// A walk before a screen of this width: as wide as the screen twice, one to two widths away.

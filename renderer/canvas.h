@@ -8,12 +8,6 @@
 
 namespace vindu {
 
-struct SizePx {
-  int width = 0;
-  int height = 0;
-  bool operator==(const SizePx&) const = default;
-};
-
 enum class Style {
   lit,    ///< light, tone curve, sRGB
   unlit,  ///< base colours as they are: no light, tone, sRGB or multisampling; for measuring

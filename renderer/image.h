@@ -10,6 +10,12 @@
 
 namespace vindu {
 
+struct SizePx {
+  int width = 0;
+  int height = 0;
+  bool operator==(const SizePx&) const = default;
+};
+
 using Rgba8 = std::array<std::uint8_t, 4>;
 
 /// Rows from the top, pixels from the left, no padding.

@@ -55,6 +55,16 @@ std::optional<View> tile_view(const TileCorners& corners, const Vec3& eye_in_wal
   return View{*clip, eye_in_wall};
 }
 
+TileCorners part_of_tile(const Tile& tile, const Vec2& upper_left_px, SizePx size) {
+  const TileCorners& whole = tile.corners;
+  const Vec3 across = (whole.lower_right_in_wall - whole.lower_left_in_wall) / tile.width_px;
+  const Vec3 down = (whole.lower_left_in_wall - whole.upper_left_in_wall) / tile.height_px;
+  const Vec3 upper_left =
+      whole.upper_left_in_wall + upper_left_px.x() * across + upper_left_px.y() * down;
+  const Vec3 lower_left = upper_left + size.height * down;
+  return {lower_left, lower_left + size.width * across, upper_left};
+}
+
 View camera_view(const Camera& camera) {
   const Axes axes = axes_of(camera);
   const double half_height = std::tan(0.5 * camera.fov_y_rad);

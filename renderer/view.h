@@ -6,6 +6,7 @@
 
 #include "core/frustum.h"
 #include "core/wall.h"
+#include "renderer/image.h"
 
 namespace vindu {
 
@@ -16,6 +17,10 @@ struct View {
 
 /// Empty when the eye is at or behind the tile's plane.
 std::optional<View> tile_view(const TileCorners& corners, const Vec3& eye_in_wall);
+
+/// A rectangle of a tile's pixels as a tile of its own: a window on a screen. Pixels count from the
+/// tile's upper left.
+TileCorners part_of_tile(const Tile& tile, const Vec2& upper_left_px, SizePx size);
 
 struct Camera {
   Vec3 eye_in_world = Vec3::Zero();

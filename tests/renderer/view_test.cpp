@@ -179,5 +179,31 @@ TEST(TileView, PutsTheTilesCornersInThePicturesCorners) {
   EXPECT_LE((ndc_of(*view, corners.upper_right_in_wall()) - Vec2(1, 1)).norm(), 1e-12);
 }
 
+TEST(PartOfTile, ShowsWhatTheWholeTileShowsThere) {
+  const Tile screen = single_screen(0.53, 0.3, 1920, 1080).tiles.front();
+  const Vec2 upper_left_px(300, 200);
+  const SizePx size{640, 480};
+  const Vec3 eye(0.1, 0.05, 0.6);
+  const View whole = *tile_view(screen.corners, eye);
+  const View part = *tile_view(part_of_tile(screen, upper_left_px, size), eye);
+
+  RandomPoints points;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 point = points.next(0.2) - Vec3(0, 0, 0.5);
+    const Vec2 in_whole = ndc_of(whole, point), in_part = ndc_of(part, point);
+    const Vec2 whole_px(960 * (1 + in_whole.x()), 540 * (1 - in_whole.y()));
+    const Vec2 part_px(320 * (1 + in_part.x()), 240 * (1 - in_part.y()));
+    ASSERT_LE((whole_px - (upper_left_px + part_px)).norm(), 1e-9);
+  }
+}
+
+TEST(PartOfTile, OfAllPixelsIsTheTile) {
+  const Tile screen = single_screen(0.53, 0.3, 1920, 1080).tiles.front();
+  const TileCorners part = part_of_tile(screen, {0, 0}, {1920, 1080});
+  EXPECT_THAT(part.lower_left_in_wall, IsNearPoint(screen.corners.lower_left_in_wall, 1e-12));
+  EXPECT_THAT(part.lower_right_in_wall, IsNearPoint(screen.corners.lower_right_in_wall, 1e-12));
+  EXPECT_THAT(part.upper_left_in_wall, IsNearPoint(screen.corners.upper_left_in_wall, 1e-12));
+}
+
 }  // namespace
 }  // namespace vindu
