@@ -68,15 +68,13 @@ EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& cl
   return room;
 }
 
-/// Draws a few frames at a small size and picks the scale at which this machine keeps a fluid rate;
-/// what it can draw at full size, it draws so.
-double fluid_scale(const Run& run) {
-  constexpr double kTrialScale = 0.08, kBudget_s = 1.0 / 40;
-  WallRenderer trial(run.site.wall, kTrialScale, live_look());
+/// What a frame of the wall takes at a scale, the best of a few.
+double frame_s(const Run& run, double scale) {
+  WallRenderer trial(run.site.wall, scale, live_look());
   trial.show(run.loaded.scene);
-  MonotonicClock clock;
-  FrameState state{.eye_in_wall = run.site.viewer.default_eye_in_wall,
-                   .navigation = run.loaded.navigation};
+  const MonotonicClock clock;
+  const FrameState state{.eye_in_wall = run.site.viewer.default_eye_in_wall,
+                         .navigation = run.loaded.navigation};
   Duration fastest = std::chrono::hours(1);
   for (int frame = 0; frame < 4; ++frame) {
     const Time begin = clock.now();
@@ -84,8 +82,20 @@ double fluid_scale(const Run& run) {
     trial.finish();
     fastest = std::min(fastest, clock.now() - begin);
   }
-  const double scale = kTrialScale * std::sqrt(kBudget_s / seconds(fastest));
-  return std::clamp(scale, 0.04, 1.0);
+  return seconds(fastest);
+}
+
+/// The largest scale at which this machine draws a frame within `budget_s`. A frame takes time for
+/// its triangles, whatever the scale, and for its pixels: a + b * scale^2, known from two trials.
+/// Where the triangles alone exceed the budget, the pixels get half as much as they: drawing still
+/// smaller would gain little.
+double fluid_scale(const Run& run, double budget_s) {
+  constexpr double kSmall = 0.05, kLarge = 0.15;
+  const double small_s = frame_s(run, kSmall), large_s = frame_s(run, kLarge);
+  const double pixels_s = std::max(large_s - small_s, 1e-6) / (kLarge * kLarge - kSmall * kSmall);
+  const double triangles_s = std::max(small_s - pixels_s * kSmall * kSmall, 0.0);
+  return std::clamp(std::sqrt(std::max(budget_s - triangles_s, 0.5 * triangles_s) / pixels_s), 0.04,
+                    1.0);
 }
 
 std::unique_ptr<EyeSource> make_eyes(Run& run) {
@@ -123,7 +133,8 @@ Run assemble(const SimulateOptions& options) {
   else
     run.surface = make_headless_surface({.device = options.device});
   log_info("simulate", gl_description());
-  const double scale = options.scale ? *options.scale : manual ? 0.1 : fluid_scale(run);
+  const double budget_s = windowed ? 1.0 / 60 : 1.0 / 30;  // in a window the room takes the rest
+  const double scale = options.scale ? *options.scale : manual ? 0.1 : fluid_scale(run, budget_s);
   run.wall = std::make_unique<WallRenderer>(run.site.wall, scale, live_look());
   run.wall->show(run.loaded.scene);
   run.room =
