@@ -68,8 +68,7 @@ class HeadlessSurface final : public Surface {
   ~HeadlessSurface() override {
     if (eglGetCurrentContext() == context_)  // else another surface has become current
       eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    eglDestroyContext(display_, context_);
-    eglTerminate(display_);
+    eglDestroyContext(display_, context_);  // the display is the process's, and others may use it
   }
 
   SizePx size() const override { return {}; }

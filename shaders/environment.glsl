@@ -1,6 +1,7 @@
-// The light around the scene, the same for surfaces, reflections and the background: a gradient from a dark floor over
-// a pale horizon to a blue zenith, one warm key light from the upper left before the wall, one cool rim light from behind.
-// Directions in world (+y up, +z towards the viewer); radiance linear, 1 is white.
+// The light around the scene, the same for surfaces, reflections and the background: a gradient
+// from a dark floor over a pale horizon to a blue zenith, one warm key light from the upper left
+// before the wall, one cool rim light from behind. Directions in world (+y up, +z towards the
+// viewer); radiance linear, 1 is white.
 const vec3 kToKey = normalize(vec3(-0.45, 0.75, 0.55));
 const vec3 kKeyLight = vec3(1.05, 0.97, 0.86);
 const vec3 kToRim = normalize(vec3(0.6, 0.35, -0.75));
@@ -18,7 +19,8 @@ vec3 environment(vec3 direction, float roughness) {
   return mix(kGround, sky, smoothstep(-width, width, y));
 }
 
-// Khronos PBR Neutral tone mapper (Khronos Group, 2024): base colours stay what they are, highlights compress.
+// Khronos PBR Neutral tone mapper (Khronos Group, 2024): base colours stay what they are,
+// highlights compress.
 vec3 tone(vec3 light) {
   const float start = 0.8 - 0.04, desaturation = 0.15;
   float lowest = min(light.r, min(light.g, light.b));

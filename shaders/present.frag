@@ -1,5 +1,6 @@
-// A picture onto a window or display, mirrored and turned as the display is mounted. Pixel for pixel where both have
-// the same size (where a filter would still blur), filtered where they differ.
+// A picture onto a window or display, mirrored and turned as the display is mounted. Pixel for
+// pixel where both have the same size (where a filter would still blur), filtered where they
+// differ.
 layout(location = 0) in vec2 ndc;
 layout(binding = 0) uniform sampler2D picture;
 uniform mat3 picture_from_display;  // both from -1 to 1

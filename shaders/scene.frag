@@ -1,5 +1,6 @@
-// Surfaces. In: world position and normal, material. Out: linear light after the tone curve (the framebuffer encodes
-// sRGB), or with MEASURE the base colour's bytes as they are, by a shader that takes no derivatives.
+// Surfaces. In: world position and normal, material. Out: linear light after the tone curve (the
+// framebuffer encodes sRGB), or with MEASURE the base colour's bytes as they are, by a shader that
+// takes no derivatives.
 #include "environment.glsl"
 #include "material.glsl"
 
@@ -15,7 +16,8 @@ layout(location = 0) out vec4 out_colour;
 
 const float kPi = 3.14159265;
 
-// GGX with height-correlated Smith visibility (Heitz 2014) and Schlick's Fresnel; light along `to_light`.
+// GGX with height-correlated Smith visibility (Heitz 2014) and Schlick's Fresnel; light along
+// `to_light`.
 vec3 key_light(vec3 n, vec3 v, vec3 albedo, vec3 f0, float roughness, vec3 to_light, vec3 light) {
   vec3 h = normalize(v + to_light);
   float n_l = max(dot(n, to_light), 0.0), n_v = max(dot(n, v), 1e-3);
@@ -29,8 +31,9 @@ vec3 key_light(vec3 n, vec3 v, vec3 albedo, vec3 f0, float roughness, vec3 to_li
   return n_l * light * (albedo * (1.0 - fresnel) + kPi * distribution * visibility * fresnel);
 }
 
-// Environment light: diffuse from the normal's hemisphere, specular from the mirrored direction, with the analytic
-// fit of the split-sum's second term (B. Karis, "Physically Based Shading on Mobile", 2014).
+// Environment light: diffuse from the normal's hemisphere, specular from the mirrored direction,
+// with the analytic fit of the split-sum's second term (B. Karis, "Physically Based Shading on
+// Mobile", 2014).
 vec3 environment_light(vec3 n, vec3 v, vec3 albedo, vec3 f0, float roughness) {
   float n_v = max(dot(n, v), 1e-3);
   vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);

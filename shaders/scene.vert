@@ -21,7 +21,8 @@ layout(location = 3) out vec4 out_colour;
 
 // The sRGB transfer function (IEC 61966-2-1), decoding.
 vec3 linear_from_srgb(vec3 encoded) {
-  return mix(pow((encoded + 0.055) / 1.055, vec3(2.4)), encoded / 12.92, lessThanEqual(encoded, vec3(0.04045)));
+  return mix(pow((encoded + 0.055) / 1.055, vec3(2.4)), encoded / 12.92,
+             lessThanEqual(encoded, vec3(0.04045)));
 }
 
 void main() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Accepts the pictures that the golden tests draw now, all or those whose test's name matches:
 #   tools/accept_goldens.sh [GTEST_FILTER]       for example  tools/accept_goldens.sh '*Show*'
-# It is the only way in which tests/golden/*.png change. Look at every picture that it names before you commit it.
+# Look at every picture that it names before you commit it.
 # GOLDEN_TEST names another build's test program (default: the preset dev's).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
