@@ -22,10 +22,9 @@ LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
                       const DrawFrame& draw, const PresentFrame& present) {
   LoopResult result;
   const Time start = clock.now();
-  const Duration period = from_seconds(1 / options.rate_hz);
-  PhotonDelay delay(period);
+  PhotonDelay delay(from_seconds(1 / options.rate_hz));
   for (std::int64_t tick = 1;;) {
-    clock.sleep_until(start + tick * period);
+    clock.sleep_until(start + from_seconds(static_cast<double>(tick) / options.rate_hz));
     const Time now = clock.now();
     if (options.length && now - start > *options.length) break;
     const EyeNow eye = eyes.at(now);
@@ -48,7 +47,8 @@ LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
     delay.add(clock.now() - now);
     result.frames.push_back(record);
     if (!go_on) break;
-    const std::int64_t next = (clock.now() - start) / period + 1;
+    const auto next =
+        static_cast<std::int64_t>(seconds(clock.now() - start) * options.rate_hz + 1e-6) + 1;
     result.ticks_missed += static_cast<std::uint64_t>(std::max<std::int64_t>(next - tick - 1, 0));
     tick = std::max(next, tick + 1);
   }

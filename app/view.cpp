@@ -42,7 +42,7 @@ Vec2 screen_size_m(const ViewOptions& options, const ScreenReport& screen, const
   if (site) return {site->wall.grid.width_m, site->wall.grid.height_m};
   const std::string doubt = doubt_about(screen);
   if (doubt.empty()) return 1e-3 * Vec2(screen.width_mm, screen.height_mm);
-  const Vec2 assumed = 25.4e-3 / 96 * Vec2(screen.size.width, screen.size.height);
+  Vec2 assumed = 25.4e-3 / 96 * Vec2(screen.size.width, screen.size.height);
   log_warning("screen " + screen.name, doubt + "; taken as " +
                                            std::to_string(std::lround(1e3 * assumed.x())) + " x " +
                                            std::to_string(std::lround(1e3 * assumed.y())) +

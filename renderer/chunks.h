@@ -7,7 +7,7 @@
 namespace vindu {
 
 /// Small enough to cull closely, large enough that a draw call is worth it.
-constexpr std::size_t kChunkTriangles = 256;
+constexpr std::size_t kChunkTriangles = 96;
 
 /// Reorders the triangles of every opaque or masked mesh of over 1.5 chunks along a Morton curve
 /// (G. Morton, 1966) of their centroids and makes a mesh of each run. Blended meshes keep their

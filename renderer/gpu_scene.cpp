@@ -21,8 +21,8 @@ constexpr GLintptr kBlockBytes = 256;
 struct GpuMaterial {
   glm::vec4 base_colour;
   glm::vec4 emissive_metallic;
-  glm::vec4 roughness_cutoff_unlit;  // and 1 where there is a texture
-  glm::vec4 srgb;                    // 1 where vertex colours are sRGB
+  glm::vec4 roughness_cutoff;
+  glm::vec4 srgb;  // 1 where vertex colours are sRGB
 };
 struct GpuNode {
   glm::mat4 world_from_node;
@@ -43,8 +43,7 @@ GpuMaterial gpu_material(const Material& material, ColourCoding coding, Style st
   const float srgb = coding == ColourCoding::srgb ? 1.0f : 0.0f;
   return {{base.x(), base.y(), base.z(), material.base_colour.w()},
           {emissive.x(), emissive.y(), emissive.z(), material.metallic},
-          {material.roughness, cutoff, material.unlit ? 1.0f : 0.0f,
-           material.base_colour_texture >= 0 ? 1.0f : 0.0f},
+          {material.roughness, cutoff, 0, 0},
           {srgb, 0, 0, 0}};
 }
 
@@ -97,7 +96,7 @@ void GpuScene::list_draws(const Scene& scene) {
       const Mesh& mesh = scene.meshes[index];
       const Material& material = scene.materials[mesh.material];
       draws_.push_back({static_cast<int>(node), mesh, material.alpha_mode, material.double_sided,
-                        material.base_colour_texture});
+                        material.base_colour_texture, material.unlit});
     }
   std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
     return std::pair(a.alpha_mode, a.texture) < std::pair(b.alpha_mode, b.texture);

@@ -29,6 +29,7 @@ class GpuScene {
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
     int texture = -1;
+    bool unlit = false;
   };
   const std::vector<Draw>& draws() const { return draws_; }  ///< opaque, then masked, then blended
   /// Around the draw's mesh as it is posed.

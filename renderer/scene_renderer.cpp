@@ -1,6 +1,7 @@
 #include "renderer/scene_renderer.h"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "renderer/gl/convert.h"
@@ -8,21 +9,18 @@
 namespace vindu {
 namespace {
 
-/// Nothing of the box is inside the view: all eight corners lie outside one of its planes. In clip
-/// space each plane is a half-space of the world also for corners behind the eye, so the test holds
-/// for any off-axis frustum.
+/// Nothing of the box is inside the view: it lies wholly outside one of its planes. In clip space
+/// -w <= x, y <= w and z <= w are half-spaces of the world, also for points behind the eye, so the
+/// test holds for any off-axis frustum. The box's farthest point along a plane's normal decides.
 bool outside(const Mat4& clip_from_world, const Box3f& box) {
-  bool left = true, right = true, below = true, above = true, before = true;
-  for (int index = 0; index < 8; ++index) {
-    const Vec3 corner = box.corner(static_cast<Box3f::CornerType>(index)).cast<double>();
-    const Vec4 clip = clip_from_world * corner.homogeneous();
-    left &= clip.x() < -clip.w();
-    right &= clip.x() > clip.w();
-    below &= clip.y() < -clip.w();
-    above &= clip.y() > clip.w();
-    before &= clip.z() > clip.w();
-  }
-  return left || right || below || above || before;
+  const Vec3 middle = box.center().cast<double>(), half = 0.5 * box.sizes().cast<double>();
+  const auto beyond = [&](const Eigen::RowVector4d& plane) {
+    return plane.head<3>().dot(middle) + plane[3] + plane.head<3>().cwiseAbs().dot(half) < 0;
+  };
+  const Eigen::RowVector4d w = clip_from_world.row(3);
+  for (const int axis : {0, 1})
+    if (beyond(w + clip_from_world.row(axis)) || beyond(w - clip_from_world.row(axis))) return true;
+  return beyond(w - clip_from_world.row(2));
 }
 
 /// The draws of one kind, by distance from the eye: blended ones farthest first, by their middle,
@@ -33,7 +31,7 @@ std::vector<const GpuScene::Draw*> sorted_draws(const GpuScene& scene, const Vec
   std::vector<std::pair<double, const GpuScene::Draw*>> found;
   for (const GpuScene::Draw& draw : scene.draws()) {
     if ((draw.alpha_mode == AlphaMode::blend) != blended) continue;
-    const Box3f box = scene.bounds_in_world(draw);
+    const Box3f& box = scene.bounds_in_world(draw);
     const Eigen::Vector3f eye = eye_in_world.cast<float>();
     found.emplace_back(blended ? -(box.center() - eye).norm() : box.exteriorDistance(eye), &draw);
   }
@@ -67,11 +65,24 @@ void add_to_batch(const GpuScene::Draw& draw, bool keep_order, std::vector<Batch
   batch->offsets.push_back(reinterpret_cast<const void*>(offset));
 }
 
+/// Index of the program for a surface: bit 0 textured, bit 1 unlit.
+std::size_t kind_of(const GpuScene::Draw& draw) {
+  return (draw.texture >= 0 ? 1u : 0u) | (draw.unlit ? 2u : 0u);
+}
+
+gl::Program scene_program(Style style, unsigned kind) {
+  std::string defines = style == Style::unlit ? "#define MEASURE\n" : "";
+  if (kind & 1) defines += "#define TEXTURED\n";
+  if (kind & 2) defines += "#define UNLIT\n";
+  return {"scene.vert", "scene.frag", defines};
+}
+
 }  // namespace
 
 SceneRenderer::SceneRenderer(Style style)
     : style_(style),
-      scene_program_("scene.vert", "scene.frag", style == Style::unlit ? "#define MEASURE\n" : ""),
+      scene_programs_{scene_program(style, 0), scene_program(style, 1), scene_program(style, 2),
+                      scene_program(style, 3)},
       background_program_("fullscreen.vert", "background.frag"),
       panel_program_("panel.vert", "panel.frag"),
       present_program_("fullscreen.vert", "present.frag"),
@@ -110,9 +121,10 @@ void SceneRenderer::draw_panels(const View& view, std::span<const Panel> panels,
 
 void SceneRenderer::draw_scene(const View& view, const GpuScene& scene, bool blended,
                                DrawCount& count) const {
-  scene_program_.use();
-  scene_program_.set("clip_from_world", gl::mat4_from(view.clip_from_world));
-  scene_program_.set("eye_in_world", gl::vec3_from(view.eye_in_world));
+  for (const gl::Program& program : scene_programs_) {
+    program.set("clip_from_world", gl::mat4_from(view.clip_from_world));
+    program.set("eye_in_world", gl::vec3_from(view.eye_in_world));
+  }
   scene.bind();
   std::vector<Batch> batches;
   for (const GpuScene::Draw* draw : sorted_draws(scene, view.eye_in_world, blended)) {
@@ -123,6 +135,7 @@ void SceneRenderer::draw_scene(const View& view, const GpuScene& scene, bool ble
       add_to_batch(*draw, blended, batches);
   }
   for (const Batch& batch : batches) {
+    scene_programs_[kind_of(*batch.first)].use();
     scene.bind(*batch.first);
     (batch.first->double_sided ? glDisable : glEnable)(GL_CULL_FACE);
     glFrontFace(scene.mirrored(batch.first->node) ? GL_CW : GL_CCW);

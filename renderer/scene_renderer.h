@@ -3,6 +3,7 @@
 // reversed and infinite. Bound to the render thread.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "renderer/canvas.h"
@@ -49,7 +50,8 @@ class SceneRenderer {
   void draw_background(const View& view) const;
 
   Style style_;
-  gl::Program scene_program_;
+  // One program a kind of surface: a CPU that draws runs both sides of every branch.
+  std::array<gl::Program, 4> scene_programs_;
   gl::Program background_program_;
   gl::Program panel_program_;
   gl::Program present_program_;

@@ -30,7 +30,7 @@ std::vector<Vec3> rays_to_corners(const Wall& wall, const Vec3& eye_in_wall) {
   for (const Tile& tile : wall.tiles)
     for (const Vec3& corner : {tile.corners.lower_left_in_wall, tile.corners.lower_right_in_wall,
                                tile.corners.upper_left_in_wall, tile.corners.upper_right_in_wall()})
-      rays.push_back(corner - eye_in_wall);
+      rays.emplace_back(corner - eye_in_wall);
   return rays;
 }
 

@@ -2,7 +2,7 @@
 layout(std140, binding = 1) uniform Material {
   vec4 base_colour;             // light
   vec4 emissive_metallic;       // rgb, metallic
-  vec4 roughness_cutoff_unlit;  // roughness, alpha cutoff (negative: none), unlit, has a texture
+  vec4 roughness_cutoff;        // roughness, alpha cutoff (negative: none)
   vec4 srgb;                    // vertex colours are sRGB
 }
 material;

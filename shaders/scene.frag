@@ -1,6 +1,6 @@
 // Surfaces. In: world position and normal, material. Out: linear light after the tone curve (the
-// framebuffer encodes sRGB), or with MEASURE the base colour's bytes as they are, by a shader that
-// takes no derivatives.
+// framebuffer encodes sRGB); with UNLIT the base colour alone; with MEASURE its bytes as they are, by
+// a shader that takes no derivatives. With TEXTURED the base colour is times a texture.
 #include "environment.glsl"
 #include "material.glsl"
 
@@ -44,27 +44,22 @@ vec3 environment_light(vec3 n, vec3 v, vec3 albedo, vec3 f0, float roughness) {
 }
 
 void main() {
-#ifdef MEASURE
-  vec4 texel = textureLod(base_colour_texture, uv, 0.0);
-#else
-  vec4 texel = texture(base_colour_texture, uv);
-#endif
   vec4 base = material.base_colour * colour;
-  if (material.roughness_cutoff_unlit.w > 0.5) base *= texel;
-  if (base.a < material.roughness_cutoff_unlit.y) discard;
-#ifdef MEASURE
+#if defined(TEXTURED) && defined(MEASURE)
+  base *= textureLod(base_colour_texture, uv, 0.0);
+#elif defined(TEXTURED)
+  base *= texture(base_colour_texture, uv);
+#endif
+  if (base.a < material.roughness_cutoff.y) discard;
+#if defined(MEASURE) || defined(UNLIT)
   out_colour = base;
 #else
-  if (material.roughness_cutoff_unlit.z > 0.5) {
-    out_colour = base;
-    return;
-  }
   vec3 v = normalize(eye_in_world - position_in_world);
   // The normal on the viewer's side of the face: old files mix the winding of their triangles.
   vec3 n = normalize(normal_in_world);
   vec3 face = cross(dFdx(position_in_world), dFdy(position_in_world));
   if (dot(face, v) * dot(face, n) < 0.0) n = -n;
-  float metallic = material.emissive_metallic.a, roughness = material.roughness_cutoff_unlit.x;
+  float metallic = material.emissive_metallic.a, roughness = material.roughness_cutoff.x;
   vec3 albedo = base.rgb * (1.0 - metallic);
   vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
   vec3 light = environment_light(n, v, albedo, f0, roughness);
