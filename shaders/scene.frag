@@ -1,6 +1,6 @@
 // Surfaces. In: world position and normal, material. Out: linear light after the tone curve (the
-// framebuffer encodes sRGB); with UNLIT the base colour alone; with MEASURE its bytes as they are, by
-// a shader that takes no derivatives. With TEXTURED the base colour is times a texture.
+// framebuffer encodes sRGB); with UNLIT the base colour alone; with MEASURE its bytes as they are,
+// by a shader that takes no derivatives. With TEXTURED the base colour is times a texture.
 #include "environment.glsl"
 #include "material.glsl"
 
