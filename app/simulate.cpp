@@ -153,12 +153,20 @@ void present_in(const WallRenderer& wall, const Picture& picture, int x, int y, 
   wall.renderer().present(picture, {});
 }
 
+/// Where the room's picture shows the head: the person's own, or on a path one that faces the wall
+/// with its eye there.
+Rigid3 head_in_picture(const Run& run, const FrameState& state) {
+  if (run.tracker) return run.room->person().room_from_head(state.photon_time);
+  const Rigid3& room_from_wall = run.site.wall.room_from_wall;
+  return {Quat::Identity(), room_from_wall * state.eye_in_wall - run.site.head.eye_in_head};
+}
+
 /// The window: the room above, the wall's picture below.
 class WindowPainter {
  public:
   WindowPainter(Run& run) : run_(run), room_(run.site, {960, 540}, live_look()) {}
   void paint(const FrameRecord& record) {
-    room_.draw(*run_.wall, run_.room->person().room_from_head(record.state.photon_time));
+    room_.draw(*run_.wall, head_in_picture(run_, record.state));
     const SizePx size = run_.surface->size();
     const int strip = size.height * 2 / 5;
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -228,7 +236,7 @@ Moment picture_moment(Run& run, WallRenderer& wall, RoomView& room, const std::s
                       const FrameRecord& frame) {
   wall.draw(frame.state);
   const Vec3& eye = frame.state.eye_in_wall;
-  room.draw(wall, run.room->person().room_from_head(frame.state.photon_time));
+  room.draw(wall, head_in_picture(run, frame.state));
   room.picture().make_mipmaps();
   return {.title = title,
           .caption = fmt::format("eye {:.2f} m {} of the middle, {:.2f} m before the wall",

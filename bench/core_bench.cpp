@@ -9,20 +9,12 @@
 
 #include "core/frustum.h"
 #include "core/pose_history.h"
+#include "core/site.h"
 
 namespace vindu {
 namespace {
 
-Wall tromso_wall() {
-  WallGrid grid;
-  grid.columns = 7;
-  grid.rows = 4;
-  grid.width_m = 5.185;
-  grid.height_m = 2.238;
-  grid.tile_width_px = 1024;
-  grid.tile_height_px = 768;
-  return expand_wall(grid, {}, {});
-}
+Wall tromso_wall() { return read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml").wall; }
 
 const Vec3 kEye_in_wall(0.3, 0.1, 1.8);
 

@@ -18,16 +18,9 @@
 namespace vindu::test {
 namespace {
 
-WallGrid thesis_grid() {
-  WallGrid grid;
-  grid.columns = 7;
-  grid.rows = 4;
-  grid.width_m = 5.185;
-  grid.height_m = 2.238;
-  grid.tile_width_px = 1024;
-  grid.tile_height_px = 768;
-  return grid;
-}
+Site thesis_site() { return read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml"); }
+
+WallGrid thesis_grid() { return thesis_site().wall.grid; }
 
 Wall flat_wall() { return expand_wall(thesis_grid(), {}, {}); }
 
@@ -162,7 +155,7 @@ TEST_F(ClosedLoop, AnEyeOffByFiveMillimetresIsFound) {
 /// What tracking costs: the eye that two emulated Wiimotes give against the true one, on the way of
 /// the walk.
 TEST_F(ClosedLoop, TrackedEyeCostsAFewPixels) {
-  const Site site = read_site(std::string(VINDU_SOURCE_DIR) + "/assets/walls/tromso.toml");
+  const Site site = thesis_site();
   ManualClock clock;
   const EmulatedRoom room(site, clock);
   Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
