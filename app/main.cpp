@@ -1,6 +1,8 @@
 // vindu: one program for master, tiles, tracker, simulator and tools. Reads the command line and
 // runs one sub-command; the only place where errors become exit codes: 0 done, 1 failed, 2 called
 // wrong.
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -15,6 +17,13 @@ namespace {
 
 /// Without a sub-command vindu shows its main job on this machine alone.
 constexpr const char* kDefaultCommand = "simulate";
+
+/// OpenGL on a CPU allocates the lists of every frame anew. glibc would give them back to the
+/// kernel each time; to fetch them again is a quarter of a frame (docs/benchmarks.md).
+void keep_freed_memory() {
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+}
 
 int run(int argc, char** argv) {
   CLI::App app(
@@ -56,6 +65,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   try {
     return run(argc, argv);
   } catch (const vindu::Error& error) {

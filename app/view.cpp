@@ -129,11 +129,9 @@ class Viewer {
     shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
                       state.animation_time_s);
     const GpuScene* scenes[] = {&shown_.scene};
-    if (view)
-      renderer_.draw(*view, scenes, {}, *canvas_);
-    else
-      canvas_->begin();
-    canvas_->resolve(*picture_, 0, 0);
+    canvas_->begin();
+    if (view) renderer_.draw(*view, scenes);
+    canvas_->resolve(*picture_);
     picture_->make_mipmaps();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, window_.size().width, window_.size().height);
@@ -191,8 +189,9 @@ int view_as_picture(const ViewOptions& options) {
   const auto view = tile_view(site.wall.tiles.front().corners, eye);
   if (!view) throw Error({"is at or behind the screen's plane", "--eye", "give an eye with z > 0"});
   const GpuScene* scenes[] = {&shown.scene};
-  renderer.draw(*view, scenes, {}, canvas);
-  canvas.resolve(picture, 0, 0);
+  canvas.begin();
+  renderer.draw(*view, scenes);
+  canvas.resolve(picture);
   make_folder(options.out);
   write_png(picture.read(), options.out + "/view.png");
   log_info("view", "there is no display, so one picture was drawn");

@@ -42,9 +42,10 @@ void Picture::clear(Rgba8 colour) {
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, values);
 }
 
-Image Picture::read() const { return read(0, 0, size_); }
+Image Picture::read() const { return read({0, 0, size_}); }
 
-Image Picture::read(int x, int y, SizePx size) const {
+Image Picture::read(const RectPx& part) const {
+  const auto& [x, y, size] = part;
   Image image = Image::filled(size.width, size.height, {});
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glGetTextureSubImage(texture_.name(), 0, x, y, 0, size.width, size.height, 1, GL_RGBA,
@@ -76,7 +77,7 @@ Canvas::Canvas(SizePx size, const Look& look)
 
 void Canvas::begin() {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glViewport(0, 0, size_.width, size_.height);
+  draw_into({0, 0, size_});
   (look_.style == Style::lit ? glEnable : glDisable)(GL_FRAMEBUFFER_SRGB);
   const float black[] = {0, 0, 0, 1}, infinitely_far = 0;
   glDepthMask(GL_TRUE);
@@ -84,11 +85,16 @@ void Canvas::begin() {
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &infinitely_far);
 }
 
-void Canvas::resolve(Picture& picture, int x, int y) const {
+void Canvas::draw_into(const RectPx& part) {
+  glViewport(part.x, part.y, part.size.width, part.size.height);
+}
+
+void Canvas::resolve(const RectPx& part, Picture& picture, int x, int y) const {
   (look_.style == Style::lit ? glEnable
                              : glDisable)(GL_FRAMEBUFFER_SRGB);  // averages light, not bytes
-  glBlitNamedFramebuffer(framebuffer_.name(), picture.framebuffer(), 0, 0, size_.width,
-                         size_.height, x, y, x + size_.width, y + size_.height, GL_COLOR_BUFFER_BIT,
+  const auto [width, height] = part.size;
+  glBlitNamedFramebuffer(framebuffer_.name(), picture.framebuffer(), part.x, part.y, part.x + width,
+                         part.y + height, x, y, x + width, y + height, GL_COLOR_BUFFER_BIT,
                          GL_NEAREST);
 }
 

@@ -18,6 +18,13 @@ struct Look {
   int samples = 4;  ///< a pixel, where light is drawn; 1 is much cheaper on a CPU
 };
 
+/// A part of a canvas or picture, its lower left at (x, y), counted from the lower left.
+struct RectPx {
+  int x = 0;
+  int y = 0;
+  SizePx size;
+};
+
 /// A texture; row 0 is the bottom, as OpenGL counts. Bound to the render thread.
 class Picture {
  public:
@@ -30,8 +37,7 @@ class Picture {
   /// For pictures that are drawn smaller than they are.
   void make_mipmaps() { glGenerateTextureMipmap(texture_.name()); }
   Image read() const;
-  /// A part, its lower left at (x, y).
-  Image read(int x, int y, SizePx size) const;
+  Image read(const RectPx& part) const;
 
  private:
   SizePx size_;
@@ -48,8 +54,12 @@ class Canvas {
   SizePx size() const { return size_; }
   /// Makes it the target of what is drawn next, cleared to black and infinitely far.
   void begin();
-  /// Copies the result into `picture`, its lower left at (x, y).
-  void resolve(Picture& picture, int x, int y) const;
+  /// After begin(): what is drawn next fills this part alone.
+  void draw_into(const RectPx& part);
+  /// Copies all of it into the lower left of `picture`.
+  void resolve(Picture& picture) const { resolve({0, 0, size_}, picture, 0, 0); }
+  /// Copies a part into `picture`, its lower left at (x, y).
+  void resolve(const RectPx& part, Picture& picture, int x, int y) const;
 
  private:
   SizePx size_;

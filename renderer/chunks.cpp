@@ -2,57 +2,82 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <span>
 
 namespace vindu {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Puts two zero bits after each of the lowest ten.
-std::uint32_t spread_bits(std::uint32_t value) {
-  value = (value | value << 16) & 0x030000ff;
-  value = (value | value << 8) & 0x0300f00f;
-  value = (value | value << 4) & 0x030c30c3;
-  return (value | value << 2) & 0x09249249;
+struct Placed {
+  Triangle corners;
+  Eigen::Vector3f middle;
+};
+
+/// Halves the triangles across the longest side of the box around their middles, and the halves
+/// again, until each has at most `largest`: compact, so that few lie on the border of a tile.
+void split(std::span<Placed> triangles, std::size_t largest,
+           std::vector<std::span<Placed>>& parts) {
+  if (triangles.size() <= largest) {
+    parts.push_back(triangles);
+    return;
+  }
+  Box3f box;
+  for (const Placed& triangle : triangles) box.extend(triangle.middle);
+  Eigen::Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  std::ranges::stable_sort(triangles, {},
+                           [axis](const Placed& triangle) { return triangle.middle[axis]; });
+  const std::size_t half = triangles.size() / 2;
+  split(triangles.first(half), largest, parts);
+  split(triangles.subspan(half), largest, parts);
 }
 
-/// Place along the curve of a point in the box, with 10 bits an axis.
-std::uint32_t morton(const Eigen::Vector3f& point, const Box3f& box) {
-  const Eigen::Vector3f size = box.sizes().cwiseMax(1e-30f);
-  const Eigen::Vector3f place =
-      (point - box.min()).cwiseQuotient(size).cwiseMax(0).cwiseMin(1) * 1023;
-  return spread_bits(static_cast<std::uint32_t>(place.x())) |
-         spread_bits(static_cast<std::uint32_t>(place.y())) << 1 |
-         spread_bits(static_cast<std::uint32_t>(place.z())) << 2;
-}
-
-void sort_along_curve(Scene& scene, const Mesh& mesh) {
-  std::vector<std::pair<std::uint32_t, Triangle>> triangles;
+/// Puts the mesh's triangles into the order of its chunks, each a mesh with its own bounds.
+std::vector<Mesh> cut(Scene& scene, const Mesh& mesh, std::size_t triangles_per_chunk) {
+  std::vector<Placed> triangles;
   for (std::uint32_t i = mesh.first_index; i < mesh.first_index + mesh.index_count; i += 3) {
-    const Triangle triangle{scene.indices[i], scene.indices[i + 1], scene.indices[i + 2]};
+    const Triangle corners{scene.indices[i], scene.indices[i + 1], scene.indices[i + 2]};
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (const std::uint32_t vertex : triangle) sum += scene.vertices[vertex].position_in_node;
-    triangles.emplace_back(morton(sum / 3, mesh.bounds_in_node), triangle);
+    for (const std::uint32_t vertex : corners) sum += scene.vertices[vertex].position_in_node;
+    triangles.push_back({corners, sum / 3});
   }
-  std::ranges::stable_sort(triangles, {}, &std::pair<std::uint32_t, Triangle>::first);
-  auto out = scene.indices.begin() + mesh.first_index;
-  for (const auto& [place, triangle] : triangles) out = std::ranges::copy(triangle, out).out;
+  std::vector<std::span<Placed>> parts;
+  split(triangles, triangles_per_chunk, parts);
+  std::vector<Mesh> chunks;
+  std::uint32_t next = mesh.first_index;
+  for (const std::span<Placed> part : parts) {
+    Mesh chunk = mesh;
+    chunk.first_index = next;
+    chunk.index_count = static_cast<std::uint32_t>(3 * part.size());
+    chunk.bounds_in_node.setEmpty();
+    for (const Placed& triangle : part)
+      for (const std::uint32_t vertex : triangle.corners) {
+        scene.indices[next++] = vertex;
+        chunk.bounds_in_node.extend(scene.vertices[vertex].position_in_node);
+      }
+    chunks.push_back(chunk);
+  }
+  return chunks;
 }
 
-/// The runs of a sorted mesh, each with its own bounds.
-std::vector<Mesh> runs_of(const Scene& scene, const Mesh& mesh, std::size_t triangles_per_chunk) {
-  std::vector<Mesh> runs;
-  const auto step = static_cast<std::uint32_t>(3 * triangles_per_chunk);
-  for (std::uint32_t first = 0; first < mesh.index_count; first += step) {
-    Mesh run = mesh;
-    run.first_index = mesh.first_index + first;
-    run.index_count = std::min(step, mesh.index_count - first);
-    run.bounds_in_node.setEmpty();
-    for (std::uint32_t i = run.first_index; i < run.first_index + run.index_count; ++i)
-      run.bounds_in_node.extend(scene.vertices[scene.indices[i]].position_in_node);
-    runs.push_back(run);
+/// A piece's vertices lie together: GPUs read memory in runs, and llvmpipe's cache of shaded
+/// vertices is indexed by their lowest bits.
+void order_vertices_by_use(Scene& scene) {
+  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> place_of(scene.vertices.size(), kUnused);
+  std::vector<Vertex> ordered;
+  ordered.reserve(scene.vertices.size());
+  for (std::uint32_t& index : scene.indices) {
+    std::uint32_t& place = place_of[index];
+    if (place == kUnused) {
+      place = static_cast<std::uint32_t>(ordered.size());
+      ordered.push_back(scene.vertices[index]);
+    }
+    index = place;
   }
-  return runs;
+  scene.vertices = std::move(ordered);
 }
 
 }  // namespace
@@ -60,17 +85,11 @@ std::vector<Mesh> runs_of(const Scene& scene, const Mesh& mesh, std::size_t tria
 void cut_into_chunks(Scene& scene, std::size_t triangles_per_chunk) {
   std::vector<Mesh> meshes;
   std::vector<std::vector<int>> chunks_of(scene.meshes.size());
-  for (std::size_t index = 0; index < scene.meshes.size(); ++index) {
-    const Mesh& mesh = scene.meshes[index];
-    const bool whole = scene.materials[mesh.material].alpha_mode == AlphaMode::blend ||
-                       mesh.index_count / 3 <= triangles_per_chunk * 3 / 2;
-    if (!whole) sort_along_curve(scene, mesh);
-    for (const Mesh& run :
-         whole ? std::vector<Mesh>{mesh} : runs_of(scene, mesh, triangles_per_chunk)) {
+  for (std::size_t index = 0; index < scene.meshes.size(); ++index)
+    for (const Mesh& chunk : cut(scene, scene.meshes[index], triangles_per_chunk)) {
       chunks_of[index].push_back(static_cast<int>(meshes.size()));
-      meshes.push_back(run);
+      meshes.push_back(chunk);
     }
-  }
   scene.meshes = std::move(meshes);
   for (Node& node : scene.nodes) {
     std::vector<int> chunks;
@@ -78,6 +97,7 @@ void cut_into_chunks(Scene& scene, std::size_t triangles_per_chunk) {
       chunks.insert(chunks.end(), chunks_of[mesh].begin(), chunks_of[mesh].end());
     node.meshes = std::move(chunks);
   }
+  order_vertices_by_use(scene);
 }
 
 }  // namespace vindu

@@ -9,9 +9,9 @@ namespace vindu {
 /// Small enough to cull closely, large enough that a draw call is worth it.
 constexpr std::size_t kChunkTriangles = 96;
 
-/// Reorders the triangles of every opaque or masked mesh of over 1.5 chunks along a Morton curve
-/// (G. Morton, 1966) of their centroids and makes a mesh of each run. Blended meshes keep their
-/// order of triangles. Nothing else changes.
+/// Halves every mesh across its longest side, at the median of its triangles' middles, until no
+/// piece has more triangles than asked for, and makes a mesh of each piece (a k-d tree: J. Bentley,
+/// 1975). Vertices are put into the order in which the pieces use them; those that none uses go.
 void cut_into_chunks(Scene& scene, std::size_t triangles_per_chunk = kChunkTriangles);
 
 }  // namespace vindu

@@ -8,8 +8,9 @@ Image picture_from_eye(WallRenderer& wall, const Vec3& eye_in_wall, SizePx size)
   wall.picture().make_mipmaps();
   const double aspect = static_cast<double>(size.width) / size.height;
   const View view = camera_view(camera_on_wall(wall.wall(), eye_in_wall, aspect));
-  wall.renderer().draw_panels(view, wall.panels({}), canvas);
-  canvas.resolve(picture, 0, 0);
+  canvas.begin();
+  wall.renderer().draw_panels(view, wall.panels({}));
+  canvas.resolve(picture);
   return picture.read();
 }
 

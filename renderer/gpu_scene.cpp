@@ -2,7 +2,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <glm/glm.hpp>
@@ -22,7 +24,6 @@ struct GpuMaterial {
   glm::vec4 base_colour;
   glm::vec4 emissive_metallic;
   glm::vec4 roughness_cutoff;
-  glm::vec4 srgb;  // 1 where vertex colours are sRGB
 };
 struct GpuNode {
   glm::mat4 world_from_node;
@@ -40,11 +41,44 @@ GpuMaterial gpu_material(const Material& material, ColourCoding coding, Style st
   const float cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
   const Eigen::Vector3f base = light_of(material.base_colour.head<3>(), coding, style);
   const Eigen::Vector3f emissive = light_of(material.emissive, coding, style);
-  const float srgb = coding == ColourCoding::srgb ? 1.0f : 0.0f;
   return {{base.x(), base.y(), base.z(), material.base_colour.w()},
           {emissive.x(), emissive.y(), emissive.z(), material.metallic},
-          {material.roughness, cutoff, 0, 0},
-          {srgb, 0, 0, 0}};
+          {material.roughness, cutoff, 0, 0}};
+}
+
+/// As it is uploaded: colours are light, in 16 bits so that the dark ones keep their steps.
+struct GpuVertex {
+  Eigen::Vector3f position_in_node;
+  Eigen::Vector3f normal_in_node;
+  Eigen::Vector2f uv;
+  std::array<std::uint16_t, 4> colour;
+};
+static_assert(sizeof(GpuVertex) == 40);
+
+/// The 16-bit light of each 8-bit code.
+std::array<std::uint16_t, 256> light_codes(ColourCoding coding, Style style) {
+  std::array<std::uint16_t, 256> codes{};
+  for (int code = 0; code < 256; ++code) {
+    const Eigen::Vector3f colour = Eigen::Vector3f::Constant(static_cast<float>(code) / 255);
+    codes[code] =
+        static_cast<std::uint16_t>(std::lround(light_of(colour, coding, style).x() * 65535));
+  }
+  return codes;
+}
+
+std::vector<GpuVertex> gpu_vertices(const Scene& scene, Style style) {
+  const std::array<std::uint16_t, 256> codes = light_codes(scene.colours, style);
+  std::vector<GpuVertex> vertices;
+  vertices.reserve(scene.vertices.size());
+  for (const Vertex& vertex : scene.vertices) {
+    const auto [r, g, b, a] = vertex.colour;
+    const auto alpha = static_cast<std::uint16_t>(257 * a);
+    vertices.push_back({vertex.position_in_node,
+                        vertex.normal_in_node,
+                        vertex.uv,
+                        {codes[r], codes[g], codes[b], alpha}});
+  }
+  return vertices;
 }
 
 /// The box around a moved box: its middle moves, its half size by the absolute matrix (J. Arvo,
@@ -82,7 +116,7 @@ GpuScene::GpuScene(const Scene& scene, Style style) : triangle_count_(scene.tria
   skeleton_.nodes = scene.nodes;
   skeleton_.animations = scene.animations;
   list_draws(scene);
-  upload_geometry(scene);
+  upload_geometry(scene, style);
   upload_materials(scene, style);
   upload_textures(scene, style);
   nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * kBlockBytes, GL_DYNAMIC_STORAGE_BIT);
@@ -103,17 +137,18 @@ void GpuScene::list_draws(const Scene& scene) {
   });
 }
 
-void GpuScene::upload_geometry(const Scene& scene) {
-  vertices_ = gl::make_buffer(scene.vertices.data(), scene.vertices.size() * sizeof(Vertex));
+void GpuScene::upload_geometry(const Scene& scene, Style style) {
+  const std::vector<GpuVertex> vertices = gpu_vertices(scene, style);
+  vertices_ = gl::make_buffer(vertices.data(), vertices.size() * sizeof(GpuVertex));
   indices_ = gl::make_buffer(scene.indices.data(), scene.indices.size() * sizeof(std::uint32_t));
   vertex_array_ = gl::make_vertex_array();
   const GLuint array = vertex_array_.name();
-  glVertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(Vertex));
+  glVertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(GpuVertex));
   glVertexArrayElementBuffer(array, indices_.name());
-  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position_in_node));
-  glVertexArrayAttribFormat(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal_in_node));
-  glVertexArrayAttribFormat(array, 2, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
-  glVertexArrayAttribFormat(array, 3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, colour));
+  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, position_in_node));
+  glVertexArrayAttribFormat(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, normal_in_node));
+  glVertexArrayAttribFormat(array, 2, 2, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, uv));
+  glVertexArrayAttribFormat(array, 3, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(GpuVertex, colour));
   for (GLuint attribute = 0; attribute < 4; ++attribute) {
     glEnableVertexArrayAttrib(array, attribute);
     glVertexArrayAttribBinding(array, attribute, 0);

@@ -43,7 +43,7 @@ class GpuScene {
   void bind(const Draw& draw) const;
 
  private:
-  void upload_geometry(const Scene& scene);
+  void upload_geometry(const Scene& scene, Style style);
   void upload_materials(const Scene& scene, Style style);
   void upload_textures(const Scene& scene, Style style);
   void list_draws(const Scene& scene);

@@ -80,15 +80,6 @@ std::vector<Eigen::Matrix4f> transforms_at_rest(const std::vector<Node>& nodes) 
   return transforms;
 }
 
-Box3f moved(const Box3f& box_in_node, const Eigen::Matrix4f& scene_from_node) {
-  Box3f box_in_scene;
-  for (int corner = 0; corner < 8; ++corner) {
-    const auto x_in_node = box_in_node.corner(static_cast<Box3f::CornerType>(corner));
-    box_in_scene.extend((scene_from_node * x_in_node.homogeneous()).head<3>());
-  }
-  return box_in_scene;
-}
-
 }  // namespace
 
 float linear_from_srgb(float encoded) {
@@ -112,9 +103,11 @@ Box3f bounds_in_scene(const Scene& scene) {
   compose(scene.nodes, transforms);
   Box3f bounds;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-    for (const int mesh : scene.nodes[i].meshes) {
-      const Box3f& box_in_node = scene.meshes[mesh].bounds_in_node;
-      if (!box_in_node.isEmpty()) bounds.extend(moved(box_in_node, transforms[i]));
+    for (const int index : scene.nodes[i].meshes) {
+      const Mesh& mesh = scene.meshes[index];
+      const Eigen::Affine3f scene_from_node(transforms[i]);
+      for (std::uint32_t at = mesh.first_index; at < mesh.first_index + mesh.index_count; ++at)
+        bounds.extend(scene_from_node * scene.vertices[scene.indices[at]].position_in_node);
     }
   return bounds;
 }

@@ -14,14 +14,12 @@
 
 namespace vindu {
 
-/// 36 bytes, uploaded as it is.
 struct Vertex {
   Eigen::Vector3f position_in_node = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal_in_node = Eigen::Vector3f::UnitZ();
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< (0, 0) is the upper left of the texture
   Rgba8 colour = {255, 255, 255, 255};           ///< times the material's base colour
 };
-static_assert(sizeof(Vertex) == 36);
 
 enum class AlphaMode { opaque, mask, blend };
 
@@ -102,7 +100,7 @@ struct Scene {
 /// scene_from_node of every node at a time, the first animation played round and round.
 std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s);
 
-/// Of all meshes at rest.
+/// Of all triangles at rest.
 Box3f bounds_in_scene(const Scene& scene);
 
 }  // namespace vindu

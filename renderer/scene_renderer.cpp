@@ -93,9 +93,8 @@ SceneRenderer::SceneRenderer(Style style)
 }
 
 DrawCount SceneRenderer::draw(const View& view, std::span<const GpuScene* const> scenes,
-                              std::span<const Panel> panels, Canvas& canvas) const {
+                              std::span<const Panel> panels) const {
   DrawCount count;
-  canvas.begin();
   glEnable(GL_DEPTH_TEST);
   for (const GpuScene* scene : scenes) draw_scene(view, *scene, false, count);
   for (const Panel& panel : panels) draw_panel(view, panel);
@@ -110,9 +109,7 @@ DrawCount SceneRenderer::draw(const View& view, std::span<const GpuScene* const>
   return count;
 }
 
-void SceneRenderer::draw_panels(const View& view, std::span<const Panel> panels,
-                                Canvas& canvas) const {
-  canvas.begin();
+void SceneRenderer::draw_panels(const View& view, std::span<const Panel> panels) const {
   glEnable(GL_DEPTH_TEST);
   for (const Panel& panel : panels) draw_panel(view, panel);
   glDisable(GL_DEPTH_TEST);

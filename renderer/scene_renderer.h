@@ -33,13 +33,13 @@ class SceneRenderer {
 
   Style style() const { return style_; }
 
-  /// The scenes must be posed; the canvas is cleared first. Blended surfaces are sorted by distance
-  /// from the eye.
+  /// Into the canvas that was begun last. The scenes must be posed. Blended surfaces are sorted by
+  /// distance from the eye.
   DrawCount draw(const View& view, std::span<const GpuScene* const> scenes,
-                 std::span<const Panel> panels, Canvas& canvas) const;
+                 std::span<const Panel> panels = {}) const;
 
   /// Flat pictures alone, in the dark: what an eye sees of the wall.
-  void draw_panels(const View& view, std::span<const Panel> panels, Canvas& canvas) const;
+  void draw_panels(const View& view, std::span<const Panel> panels) const;
 
   /// A picture into the part of the bound framebuffer that the viewport names.
   void present(const Picture& picture, const TileMount& mount) const;

@@ -14,6 +14,10 @@ int gap_px(double bezel_mm, double pitch_m, double scale) {
   return static_cast<int>(std::lround(1e-3 * bezel_mm / pitch_m * scale));
 }
 
+/// Of the canvas on which tiles are drawn together: 128 MiB of colour and depth.
+constexpr int kCanvasSamples = 1 << 24;
+constexpr int kCanvasSide_px = 8192;
+
 }  // namespace
 
 WallLayout layout_of(const Wall& wall, double scale) {
@@ -38,52 +42,70 @@ WallLayout layout_of(const Wall& wall, double scale) {
 
 WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look)
     : wall_(wall),
-      look_(look),
       layout_(layout_of(wall, scale)),
       renderer_(look.style),
       picture_(std::make_unique<Picture>(layout_.size, look.style)) {
   picture_->clear({0, 0, 0, 255});
+  for (const RectPx& tile : layout_.tiles) {
+    cell_.width = std::max(cell_.width, tile.size.width);
+    cell_.height = std::max(cell_.height, tile.size.height);
+  }
+  const int samples = look.style == Style::lit ? std::max(look.samples, 1) : 1;
+  const int count = static_cast<int>(layout_.tiles.size());
+  const int together =
+      std::clamp(kCanvasSamples / (cell_.width * cell_.height * samples), 1, count);
+  cells_x_ = std::clamp(kCanvasSide_px / cell_.width, 1, together);
+  cells_y_ = std::clamp(kCanvasSide_px / cell_.height, 1, (together + cells_x_ - 1) / cells_x_);
+  canvas_ = std::make_unique<Canvas>(SizePx{cells_x_ * cell_.width, cells_y_ * cell_.height}, look);
 }
 
 void WallRenderer::show(const Scene& scene) {
   scene_ = std::make_unique<GpuScene>(scene, renderer_.style());
 }
 
-Canvas& WallRenderer::canvas_of(SizePx size) {
-  const auto found =
-      std::ranges::find_if(canvases_, [&](const auto& canvas) { return canvas->size() == size; });
-  if (found != canvases_.end()) return **found;
-  return *canvases_.emplace_back(std::make_unique<Canvas>(size, look_));
-}
-
 WallFrame WallRenderer::draw(const FrameState& state, const Tile* only) {
   const Navigation& navigation = state.navigation;
   if (scene_)
     scene_->pose(matrix_of(navigation.wall_from_scene, navigation.scale), state.animation_time_s);
-  const std::vector<const GpuScene*> scenes =
-      scene_ ? std::vector<const GpuScene*>{scene_.get()} : std::vector<const GpuScene*>{};
+  std::vector<std::size_t> wanted;
+  for (std::size_t index = 0; index < wall_.tiles.size(); ++index)
+    if (!only || only->name == wall_.tiles[index].name) wanted.push_back(index);
   WallFrame frame;
-  for (std::size_t index = 0; index < wall_.tiles.size(); ++index) {
-    const Tile& tile = wall_.tiles[index];
-    if (only && only->name != tile.name) continue;
-    const TilePlace& place = layout_.tiles[index];
-    Canvas& canvas = canvas_of(place.size);
-    if (const auto view = tile_view(tile.corners, state.eye_in_wall)) {
-      const DrawCount count = renderer_.draw(*view, scenes, {}, canvas);
-      frame.count.draws += count.draws;
-      frame.count.culled += count.culled;
-    } else {
-      canvas.begin();
-      frame.black_tiles.push_back(tile.name);
-    }
-    canvas.resolve(*picture_, place.x, place.y);
+  const std::size_t together = static_cast<std::size_t>(cells_x_) * cells_y_;
+  for (std::size_t first = 0; first < wanted.size(); first += together) {
+    const std::size_t count = std::min(together, wanted.size() - first);
+    draw_together(state, std::span(wanted).subspan(first, count), frame);
   }
   return frame;
 }
 
+void WallRenderer::draw_together(const FrameState& state, std::span<const std::size_t> tiles,
+                                 WallFrame& frame) {
+  const auto cell = [&](std::size_t order) {
+    const int x = static_cast<int>(order) % cells_x_, y = static_cast<int>(order) / cells_x_;
+    return RectPx{x * cell_.width, y * cell_.height, layout_.tiles[tiles[order]].size};
+  };
+  const GpuScene* const scene = scene_.get();
+  const std::span scenes(&scene, scene ? 1 : 0);
+  canvas_->begin();
+  for (std::size_t order = 0; order < tiles.size(); ++order) {
+    const Tile& tile = wall_.tiles[tiles[order]];
+    const auto view = tile_view(tile.corners, state.eye_in_wall);
+    if (!view) frame.black_tiles.push_back(tile.name);
+    if (!view) continue;
+    canvas_->draw_into(cell(order));
+    const DrawCount count = renderer_.draw(*view, scenes);
+    frame.count.draws += count.draws;
+    frame.count.culled += count.culled;
+  }
+  for (std::size_t order = 0; order < tiles.size(); ++order) {
+    const RectPx& place = layout_.tiles[tiles[order]];
+    canvas_->resolve(cell(order), *picture_, place.x, place.y);
+  }
+}
+
 Image WallRenderer::read_tile(std::size_t index) const {
-  const TilePlace& place = layout_.tiles[index];
-  return picture_->read(place.x, place.y, place.size);
+  return picture_->read(layout_.tiles[index]);
 }
 
 std::vector<Panel> WallRenderer::panels(const Rigid3& world_from_wall) const {
@@ -91,7 +113,7 @@ std::vector<Panel> WallRenderer::panels(const Rigid3& world_from_wall) const {
   const Vec2 whole(layout_.size.width, layout_.size.height);
   for (std::size_t index = 0; index < wall_.tiles.size(); ++index) {
     const TileCorners& corners = wall_.tiles[index].corners;
-    const TilePlace& place = layout_.tiles[index];
+    const RectPx& place = layout_.tiles[index];
     panels.push_back(
         {.corners_in_world = {world_from_wall * corners.lower_left_in_wall,
                               world_from_wall * corners.lower_right_in_wall,

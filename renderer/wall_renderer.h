@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,17 +13,10 @@
 
 namespace vindu {
 
-/// Where a tile's pixels lie in the picture of the whole wall, from its lower left; bezels are
-/// gaps.
-struct TilePlace {
-  int x = 0;
-  int y = 0;
-  SizePx size;
-};
-
+/// Where the tiles' pixels lie in the picture of the whole wall; bezels are gaps.
 struct WallLayout {
   SizePx size;
-  std::vector<TilePlace> tiles;  ///< in the order of Wall::tiles
+  std::vector<RectPx> tiles;  ///< in the order of Wall::tiles
 };
 
 /// Tiles in their places of the grid, each side scaled and rounded to at least one pixel.
@@ -57,14 +51,18 @@ class WallRenderer {
   std::vector<Panel> panels(const Rigid3& world_from_wall) const;
 
  private:
-  Canvas& canvas_of(SizePx size);
+  void draw_together(const FrameState& state, std::span<const std::size_t> tiles, WallFrame& frame);
 
   Wall wall_;
-  Look look_;
   WallLayout layout_;
   SceneRenderer renderer_;
   std::unique_ptr<Picture> picture_;
-  std::vector<std::unique_ptr<Canvas>> canvases_;  // one for each size of tile
+  // Tiles are drawn beside each other and copied together, so that a GPU need not wait for one to
+  // be drawn before the next.
+  SizePx cell_;  // as large as the largest tile
+  int cells_x_ = 1;
+  int cells_y_ = 1;
+  std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<GpuScene> scene_;
 };
 

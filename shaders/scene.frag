@@ -2,7 +2,14 @@
 // framebuffer encodes sRGB); with UNLIT the base colour alone; with MEASURE its bytes as they are,
 // by a shader that takes no derivatives. With TEXTURED the base colour is times a texture.
 #include "environment.glsl"
-#include "material.glsl"
+
+// The material, as renderer/gpu_scene.cpp writes it.
+layout(std140, binding = 1) uniform Material {
+  vec4 base_colour;        // light
+  vec4 emissive_metallic;  // rgb, metallic
+  vec4 roughness_cutoff;   // roughness, alpha cutoff (negative: none)
+}
+material;
 
 layout(location = 0) in vec3 position_in_world;
 layout(location = 1) in vec3 normal_in_world;

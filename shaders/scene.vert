@@ -1,8 +1,6 @@
 // Geometry of a scene. In: vertices in node. Out: position and normal in world, clip position.
 // The world position is computed first and alone, so that it is bit-equal on all tiles.
 
-#include "material.glsl"
-
 layout(location = 0) in vec3 position_in_node;
 layout(location = 1) in vec3 normal_in_node;
 layout(location = 2) in vec2 uv;
@@ -19,20 +17,11 @@ layout(location = 1) out vec3 out_normal_in_world;
 layout(location = 2) out vec2 out_uv;
 layout(location = 3) out vec4 out_colour;
 
-// The sRGB transfer function (IEC 61966-2-1), decoding.
-vec3 linear_from_srgb(vec3 encoded) {
-  return mix(pow((encoded + 0.055) / 1.055, vec3(2.4)), encoded / 12.92,
-             lessThanEqual(encoded, vec3(0.04045)));
-}
-
 void main() {
   vec4 position_in_world = vec4((world_from_node * vec4(position_in_node, 1.0)).xyz, 1.0);
   out_position_in_world = position_in_world.xyz;
   out_normal_in_world = mat3(normal_from_node) * normal_in_node;
   out_uv = uv;
   out_colour = colour;
-#ifndef MEASURE
-  if (material.srgb.x > 0.5) out_colour.rgb = linear_from_srgb(colour.rgb);
-#endif
   gl_Position = clip_from_world * position_in_world;
 }

@@ -40,8 +40,9 @@ void RoomView::draw(WallRenderer& wall, const Rigid3& room_from_head) {
   const double aspect = static_cast<double>(canvas_.size().width) / canvas_.size().height;
   const View view = camera_view(onlooker(site_, aspect));
   const std::vector<Panel> panels = wall.panels(site_.wall.room_from_wall);
-  wall.renderer().draw(view, pose_all(room_from_head), panels, canvas_);
-  canvas_.resolve(picture_, 0, 0);
+  canvas_.begin();
+  wall.renderer().draw(view, pose_all(room_from_head), panels);
+  canvas_.resolve(picture_);
 }
 
 Camera onlooker(const Site& site, double aspect) {

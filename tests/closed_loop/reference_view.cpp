@@ -88,8 +88,9 @@ Levels reference_of_tile(const Tile& tile, const Vec3& eye_in_wall, const SceneR
   Canvas canvas({kReference_px, kReference_px}, Look{renderer.style()});
   Picture picture(canvas.size(), renderer.style());
   const GpuScene* scenes[] = {&scene};
-  renderer.draw(view_with(clip_from_wall, eye_in_wall), scenes, {}, canvas);
-  canvas.resolve(picture, 0, 0);
+  canvas.begin();
+  renderer.draw(view_with(clip_from_wall, eye_in_wall), scenes);
+  canvas.resolve(picture);
   const Image seen = picture.read();
 
   const double w = tile.width_px, h = tile.height_px;

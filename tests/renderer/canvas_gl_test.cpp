@@ -29,7 +29,7 @@ TEST_F(CanvasGl, BeginsBlackAndOpaque) {
     Picture picture({7, 4}, style);
     picture.clear(kWhite);
     canvas.begin();
-    canvas.resolve(picture, 0, 0);
+    canvas.resolve(picture);
     EXPECT_THAT(picture.read().pixels, Each(kBlack));
   }
 }
@@ -48,7 +48,7 @@ TEST_F(CanvasGl, ReadsTheUpperLeftAsUpperLeft) {
   Canvas canvas({8, 6}, Look{Style::unlit});
   Picture picture({8, 6}, Style::unlit);
   fill_part(canvas, 0, 4, {3, 2}, 1);  // OpenGL counts from below
-  canvas.resolve(picture, 0, 0);
+  canvas.resolve(picture);
   const Image image = picture.read();
   for (int y = 0; y < 6; ++y)
     for (int x = 0; x < 8; ++x)
@@ -60,8 +60,8 @@ TEST_F(CanvasGl, ResolvesToAPlaceCountedFromTheLowerLeftAndReadsItBackThere) {
   Picture picture({9, 7}, Style::unlit);
   picture.clear(kBlue);
   fill_part(canvas, 0, 2, {2, 1}, 1);  // its upper row
-  canvas.resolve(picture, 4, 1);
-  const Image part = picture.read(4, 1, {2, 3});
+  canvas.resolve({0, 0, canvas.size()}, picture, 4, 1);
+  const Image part = picture.read({4, 1, {2, 3}});
   EXPECT_EQ(part.at(0, 0), kWhite);
   EXPECT_EQ(part.at(1, 1), kBlack);
   const Image whole = picture.read();

@@ -98,8 +98,9 @@ class Tester {
   int drawn_pixels(const View& view, GpuScene& scene, const Mat4& wall_from_scene, bool& culled) {
     scene.pose(wall_from_scene, 0);
     const GpuScene* scenes[] = {&scene};
-    culled = renderer_.draw(view, scenes, {}, canvas_).culled > 0;
-    canvas_.resolve(picture_, 0, 0);
+    canvas_.begin();
+    culled = renderer_.draw(view, scenes).culled > 0;
+    canvas_.resolve(picture_);
     const Image image = picture_.read();
     return static_cast<int>(std::ranges::count(image.pixels, kWhite));
   }
@@ -158,7 +159,8 @@ TEST_F(CullingGl, LeavesOutMostOfWhatATileDoesNotShow) {
   const SceneRenderer renderer(Style::unlit);
   Canvas canvas(kStage_px, Look{Style::unlit});
   const GpuScene* scenes[] = {&gpu_scene};
-  const DrawCount count = renderer.draw(*tile_view(stage(), {0, 0, 2}), scenes, {}, canvas);
+  canvas.begin();
+  const DrawCount count = renderer.draw(*tile_view(stage(), {0, 0, 2}), scenes);
   EXPECT_EQ(count.draws, 100);
   EXPECT_GE(count.culled, 95);
   EXPECT_LT(count.culled, 100);

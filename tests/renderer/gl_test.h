@@ -39,8 +39,9 @@ inline Image draw_on_stage(const Scene& scene, Style style, const Vec3& eye_in_w
   Canvas canvas(kStage_px, Look{style});
   Picture picture(kStage_px, style);
   const GpuScene* scenes[] = {&gpu_scene};
-  renderer.draw(*tile_view(stage(), eye_in_world), scenes, {}, canvas);
-  canvas.resolve(picture, 0, 0);
+  canvas.begin();
+  renderer.draw(*tile_view(stage(), eye_in_world), scenes);
+  canvas.resolve(picture);
   return picture.read();
 }
 

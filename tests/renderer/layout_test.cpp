@@ -25,7 +25,7 @@ WallLayout layout(const WallGrid& grid, double scale) {
   return layout_of(expand_wall(grid, {}, {}), scale);
 }
 
-bool overlap(const TilePlace& a, const TilePlace& b) {
+bool overlap(const RectPx& a, const RectPx& b) {
   return a.x < b.x + b.size.width && b.x < a.x + a.size.width && a.y < b.y + b.size.height &&
          b.y < a.y + a.size.height;
 }

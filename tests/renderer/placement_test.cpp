@@ -10,12 +10,16 @@ using ::testing::HasSubstr;
 
 const Wall kWall = single_screen(5.0, 2.0, 1000, 400);
 
-/// A scene of one box; only its bounds matter here.
+/// A scene of one triangle with the given bounds.
 Scene scene_of(const Eigen::Vector3f& least, const Eigen::Vector3f& largest) {
   Scene scene;
-  scene.meshes.push_back({.bounds_in_node = Box3f(least, largest)});
+  for (const Eigen::Vector3f& corner : {least, largest, least}) {
+    scene.indices.push_back(static_cast<std::uint32_t>(scene.vertices.size()));
+    scene.vertices.emplace_back().position_in_node = corner;
+  }
+  scene.meshes.push_back({.index_count = 3, .bounds_in_node = Box3f(least, largest)});
   scene.materials.emplace_back();
-  scene.nodes.push_back({.name = "box", .meshes = {0}});
+  scene.nodes.push_back({.name = "triangle", .meshes = {0}});
   return scene;
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <numbers>
 
 namespace vindu {
@@ -37,6 +39,15 @@ AnimationChannel moving_root() {
   return channel;
 }
 
+/// As the scene's only mesh.
+void add_triangle(Scene& scene, const std::array<Eigen::Vector3f, 3>& corners) {
+  for (const Eigen::Vector3f& corner : corners) {
+    scene.indices.push_back(static_cast<std::uint32_t>(scene.vertices.size()));
+    scene.vertices.emplace_back().position_in_node = corner;
+  }
+  scene.meshes = {{.first_index = 0, .index_count = 3, .material = 0, .bounds_in_node = {}}};
+}
+
 TEST(NodeTransforms, AtRestComposeParents) {
   Scene scene = two_nodes();
   scene.nodes[0].parent_from_node = moved_by(0, 5, 0);
@@ -52,8 +63,8 @@ TEST(NodeTransforms, AnimatedParentCarriesItsChild) {
 
   const std::vector<Eigen::Matrix4f> transforms = node_transforms(scene, 1);
 
-  // Half of 4 up; half of a quarter turn takes the child's +x towards -z.
   const float half = std::sqrt(0.5f);
+  // Half of 4 up; half of a quarter turn takes the child's +x towards -z.
   EXPECT_TRUE(origin_of(transforms[0]).isApprox(Eigen::Vector3f(0, 2, 0), 1e-6f));
   EXPECT_TRUE(origin_of(transforms[1]).isApprox(Eigen::Vector3f(half, 2, -half), 1e-6f));
 }
@@ -99,9 +110,7 @@ TEST(NodeTransforms, AnimationWithoutDurationShowsItsStart) {
 
 TEST(BoundsInScene, CoverEveryInstanceOfAMesh) {
   Scene scene = two_nodes();
-  Mesh mesh;
-  mesh.bounds_in_node = Box3f(Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1, 2, 3));
-  scene.meshes = {mesh};
+  add_triangle(scene, {{{0, 0, 0}, {1, 2, 0}, {0, 2, 3}}});
   scene.nodes[0].meshes = {0};
   scene.nodes[1].meshes = {0};
   scene.nodes[1].parent_from_node.topLeftCorner<3, 3>() =
@@ -111,6 +120,16 @@ TEST(BoundsInScene, CoverEveryInstanceOfAMesh) {
 
   EXPECT_TRUE(bounds.min().isApprox(Eigen::Vector3f(0, 0, -1), 1e-6f)) << bounds.min();
   EXPECT_TRUE(bounds.max().isApprox(Eigen::Vector3f(4, 2, 3), 1e-6f)) << bounds.max();
+}
+
+TEST(BoundsInScene, AreThoseOfTurnedTrianglesNotOfTheirTurnedBox) {
+  Scene scene = two_nodes();
+  add_triangle(scene, {{{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}}});
+  scene.nodes[0].meshes = {0};
+  scene.nodes[0].parent_from_node.topLeftCorner<3, 3>() =
+      turned_about_y(kQuarterTurn / 2).toRotationMatrix();
+
+  EXPECT_NEAR(bounds_in_scene(scene).diagonal().x(), std::sqrt(2), 1e-6);
 }
 
 TEST(BoundsInScene, OfNothingAreEmpty) { EXPECT_TRUE(bounds_in_scene(two_nodes()).isEmpty()); }
