@@ -32,7 +32,8 @@ struct Scene {
       if (distorted) camera.intrinsics.distortion = {0.03, -0.02, 0.001, 0.001, 0};
       EmulatedSensor sensor(camera, site.head, 0.3, i);
       reports[i] = encode_report_0x33(sensor.look(room_from_head));
-      seen[i] = {static_cast<int>(i), Time{}, parse_report(reports[i]).report->dots};
+      seen[i] = {static_cast<int>(i), Time{},
+                 dots_of(*std::get<DataReport>(*parse_report(reports[i]).report).slots)};
     }
   }
 };

@@ -1,33 +1,54 @@
 #include "tracker/wiimote/reader.h"
 
+#include <algorithm>
 #include <array>
 
-#include "core/error.h"
-#include "tracker/wiimote/report.h"
-
 namespace vindu {
+namespace {
 
-WiimoteReader::WiimoteReader(std::unique_ptr<HidDevice> device, int camera, const std::string& name)
-    : device_(std::move(device)), camera_(camera) {
-  constexpr std::array<std::uint8_t, 3> kStream0x33 = {0x12, 0x04, 0x33};  // 0x04: continuously
-  if (!device_->write(kStream0x33))
-    throw Error({"the Wiimote does not take the request for dots (report 0x12)", name,
-                 "press 1 and 2 on it, or reconnect it, and start again"});
+constexpr Duration kBreath = std::chrono::milliseconds(1);
+
+}  // namespace
+
+WiimoteReader::WiimoteReader(std::unique_ptr<HidDevice> device, int camera, std::string name,
+                             const WiimoteSettings& settings)
+    : device_(std::move(device)), camera_(camera), name_(std::move(name)), session_(settings) {}
+
+void WiimoteReader::reconnect(std::unique_ptr<HidDevice> device, Time now) {
+  device_ = std::move(device);
+  now_ = std::max(now_, now);
+  gone_ = refuses_ = false;
+  session_.reconnected(now_);
+}
+
+void WiimoteReader::write_outputs() {
+  while (const auto output = session_.next_output(now_)) refuses_ = !device_->write(output->span());
+}
+
+std::optional<WiimoteSample> WiimoteReader::next_sample(Time until) {
+  std::array<std::uint8_t, 64> buffer;
+  if (now_ == Time::min()) now_ = until;
+  while (!gone_) {
+    write_outputs();
+    const Time wait = std::min(until, std::max(session_.deadline(), now_ + kBreath));
+    const HidRead read = device_->read(buffer, wait);
+    gone_ = read.status == HidStatus::gone;
+    if (read.status == HidStatus::report) {
+      now_ = std::max(now_, read.arrival);
+      const auto sample = session_.take(std::span(buffer).first(read.size), read.arrival);
+      if (sample) return sample;
+    } else if (read.status == HidStatus::nothing) {
+      now_ = std::max(now_, wait);
+      if (wait >= until) return std::nullopt;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Observation> WiimoteReader::next(Time until) {
-  std::array<std::uint8_t, 64> buffer;
-  while (!gone_) {
-    const HidRead read = device_->read(buffer, until);
-    gone_ = read.status == HidStatus::gone;
-    if (read.status != HidStatus::report) return std::nullopt;
-    const auto parsed = parse_report(std::span(buffer).first(read.size));
-    if (parsed.report) {
-      ++counts_.reports;
-      return Observation{camera_, read.arrival, parsed.report->dots};
-    }
-    ++counts_.refused;
-  }
+  while (const auto sample = next_sample(until))
+    if (sample->data.slots)
+      return Observation{camera_, sample->arrival, dots_of(*sample->data.slots)};
   return std::nullopt;
 }
 

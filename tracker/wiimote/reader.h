@@ -1,41 +1,51 @@
-// Drains one Wiimote: bytes of a HID device in, observations out. Whether the device is real or
-// emulated cannot be told from here.
+// Reads one Wiimote: bytes of a HID device in, samples or observations out; starts its camera and
+// keeps it going. Whether the device is real, emulated or recorded cannot be told from here.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "tracker/observation.h"
+#include "tracker/observation_source.h"
 #include "tracker/wiimote/hid_device.h"
+#include "tracker/wiimote/session.h"
 
 namespace vindu {
 
-struct ReaderCounts {
-  std::uint64_t reports = 0;  ///< read as 0x33
-  std::uint64_t refused = 0;  ///< other ids, wrong lengths
-};
-
 /// Bound to one thread.
-class WiimoteReader {
+class WiimoteReader final : public ObservationSource {
  public:
   /// `camera` is the index in the site's list that the observations carry; `name` is for messages.
-  /// Asks the device to stream report 0x33; throws Error when it refuses.
-  WiimoteReader(std::unique_ptr<HidDevice> device, int camera, const std::string& name);
+  WiimoteReader(std::unique_ptr<HidDevice> device, int camera, std::string name,
+                const WiimoteSettings& settings = {});
 
-  /// The next observation that arrives no later than `until`; call it until it is empty. Empty for
-  /// ever once the device is gone.
-  std::optional<Observation> next(Time until);
+  /// The next sample that arrives no later than `until`, which must not go back; call it until it
+  /// is empty. Empty for ever once the device is gone.
+  std::optional<WiimoteSample> next_sample(Time until);
+  /// The next sample with dots, also when there are none in view.
+  std::optional<Observation> next(Time until) override;
 
-  bool gone() const { return gone_; }
-  const ReaderCounts& counts() const { return counts_; }
+  bool gone() const override { return gone_; }
+  /// The device refused what was written to it last: it is gone, or the empty slot of an adapter.
+  bool refuses() const { return refuses_; }
+  void disconnect() { device_.reset(), gone_ = true; }
+  /// Goes on with the device after it was away.
+  void reconnect(std::unique_ptr<HidDevice> device, Time now);
+
+  const std::string& name() const { return name_; }
+  WiimoteSession& session() { return session_; }
+  const WiimoteSession& session() const { return session_; }
 
  private:
+  void write_outputs();
+
   std::unique_ptr<HidDevice> device_;
   int camera_;
+  std::string name_;
+  WiimoteSession session_;
+  Time now_ = Time::min();  // of the last report, or as long as was waited
   bool gone_ = false;
-  ReaderCounts counts_;
+  bool refuses_ = false;
 };
 
 }  // namespace vindu

@@ -1,0 +1,91 @@
+#include "tracker/wiimote/exchange.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace vindu {
+namespace {
+
+constexpr int kBusy = 4;
+
+/// Whether the memory report answers the step's read: the address is the last two of its bytes.
+bool answers(const MemoryReport& memory, const Step& step) {
+  const auto& bytes = step.report.bytes;
+  return step.answer == Answer::memory && memory.address == (bytes[3] << 8 | bytes[4]);
+}
+
+bool answers(const Acknowledgement& acknowledgement, const Step& step) {
+  return step.answer == Answer::acknowledgement && acknowledgement.command == step.report.bytes[0];
+}
+
+bool as_expected(const MemoryReport& memory, const Step& step) {
+  const auto size = static_cast<std::size_t>(memory.size);
+  return step.expected.empty() ||
+         std::ranges::equal(step.expected, std::span(memory.data).first(size));
+}
+
+}  // namespace
+
+void Exchange::begin(std::vector<Step> steps, const Patience& patience) {
+  steps_.assign(std::make_move_iterator(steps.begin()), std::make_move_iterator(steps.end()));
+  patience_ = patience;
+  tries_ = 0;
+  next_try_ = {};
+  timeout_ = Progress::none;
+}
+
+Progress Exchange::end_step() {
+  steps_.pop_front();
+  tries_ = 0;
+  next_try_ = {};
+  return steps_.empty() ? Progress::finished : Progress::step;
+}
+
+Progress Exchange::fail(Progress how, const std::string& why) {
+  failure_ = std::string("could not ") + steps_.front().purpose + ": " + why;
+  steps_.clear();
+  return how;
+}
+
+Progress Exchange::take(const Report& report) {
+  if (steps_.empty() || tries_ == 0) return Progress::none;
+  const Step& step = steps_.front();
+  int error = 0;
+  if (std::holds_alternative<StatusReport>(report)) {
+    return step.answer == Answer::status ? end_step() : Progress::none;
+  } else if (const auto* acknowledgement = std::get_if<Acknowledgement>(&report)) {
+    if (!answers(*acknowledgement, step)) return Progress::none;
+    error = acknowledgement->error;
+  } else if (const auto* memory = std::get_if<MemoryReport>(&report)) {
+    if (!answers(*memory, step) || memory->error == kBusy) return Progress::none;
+    error = memory->error;
+    if (error == 0 && !as_expected(*memory, step))
+      return fail(Progress::failed, "it is not what was written");
+  } else {
+    return Progress::none;
+  }
+  if (error == 0) return end_step();
+  return fail(Progress::failed, "the Wiimote refused it with error " + std::to_string(error));
+}
+
+std::optional<OutputReport> Exchange::next_output(Time now) {
+  while (!steps_.empty() && now >= next_try_) {
+    if (tries_ < patience_.tries) {
+      if (++tries_ > 1) ++repeated_;
+      next_try_ = now + patience_.timeout;
+      return steps_.front().report;
+    }
+    timeout_ =
+        patience_.go_on ? end_step() : fail(Progress::deserted, "the Wiimote gave no answer");
+  }
+  return std::nullopt;
+}
+
+Progress Exchange::take_timeout() {
+  const Progress timeout = std::exchange(timeout_, Progress::none);
+  return timeout == Progress::step ? Progress::none : timeout;
+}
+
+Time Exchange::deadline() const { return steps_.empty() ? Time::max() : next_try_; }
+
+}  // namespace vindu

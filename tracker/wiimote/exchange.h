@@ -1,0 +1,62 @@
+// Commands that a Wiimote answers, one at a time: it loses those that reach it before the answer to
+// the one before. A command without an answer is sent again. No input or output of its own.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "tracker/wiimote/commands.h"
+
+namespace vindu {
+
+struct Patience {
+  Duration timeout = std::chrono::milliseconds(250);  ///< replies take up to about 200 (SDL)
+  int tries = 4;
+  bool go_on = false;  ///< without an answer, for devices that give none
+};
+
+enum class Progress {
+  none,      ///< the report answered nothing that was asked
+  step,      ///< it ended a step
+  finished,  ///< it ended the last one
+  failed,    ///< the step was refused, or the memory is not what was expected; all are dropped
+  deserted,  ///< no answer came after all tries; all are dropped
+};
+
+class Exchange {
+ public:
+  void begin(std::vector<Step> steps, const Patience& patience);
+  void abandon() { steps_.clear(); }
+  bool idle() const { return steps_.empty(); }
+
+  /// Offers a report that has come.
+  Progress take(const Report& report);
+  /// The command to write now, for the first time or again.
+  std::optional<OutputReport> next_output(Time now);
+  /// What became of the exchange for want of answers, since the last call: none, finished (where
+  /// it goes on without) or deserted.
+  Progress take_timeout();
+  /// Why it failed or was deserted.
+  const std::string& failure() const { return failure_; }
+  /// Commands that were sent again.
+  std::uint64_t repeated() const { return repeated_; }
+  /// When next_output() may have something; Time::max() when idle.
+  Time deadline() const;
+
+ private:
+  Progress end_step();
+  Progress fail(Progress how, const std::string& why);
+
+  std::deque<Step> steps_;
+  Patience patience_;
+  Time next_try_{};
+  int tries_ = 0;
+  Progress timeout_ = Progress::none;
+  std::string failure_;
+  std::uint64_t repeated_ = 0;
+};
+
+}  // namespace vindu

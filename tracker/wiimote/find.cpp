@@ -1,0 +1,31 @@
+#include "tracker/wiimote/find.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace vindu {
+
+WiimoteKind kind_of(const HidInfo& info) {
+  constexpr std::uint16_t kNintendo = 0x057e, kLego = 0x054c;
+  constexpr std::uint16_t kClassic = 0x0306, kTr = 0x0330;
+  if (info.name.ends_with("-UC") || info.name.find("RVL-WBC") != std::string::npos)
+    return WiimoteKind::none;
+  if (info.name.find("RVL-CNT-01-TR") != std::string::npos) return WiimoteKind::tr;
+  if (info.name.find("RVL-CNT-01") != std::string::npos) return WiimoteKind::classic;
+  const bool known_id = (info.vendor_id == kNintendo || info.vendor_id == kLego) &&
+                        (info.product_id == kClassic || info.product_id == kTr);
+  if (!known_id) return WiimoteKind::none;
+  // Bluetooth's serial number is the device's address; an adapter has none of its slots'.
+  if (info.address.empty()) return WiimoteKind::adapter;
+  return info.product_id == kTr ? WiimoteKind::tr : WiimoteKind::classic;
+}
+
+std::vector<HidInfo> find_wiimotes(HidBus& bus) {
+  std::vector<HidInfo> found = bus.list();
+  std::erase_if(found, [](const HidInfo& info) { return kind_of(info) == WiimoteKind::none; });
+  std::ranges::sort(found, {},
+                    [](const HidInfo& info) { return std::tie(info.address, info.path); });
+  return found;
+}
+
+}  // namespace vindu

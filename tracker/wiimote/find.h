@@ -1,0 +1,30 @@
+// Which HID devices are Wiimotes.
+#pragma once
+
+#include <vector>
+
+#include "tracker/wiimote/hid_device.h"
+
+namespace vindu {
+
+enum class WiimoteKind {
+  none,
+  classic,  ///< RVL-CNT-01
+  tr,       ///< RVL-CNT-01-TR, Motion Plus inside
+  adapter,  ///< a slot of a USB adapter (DolphinBar), perhaps an empty one
+};
+
+constexpr const char* name_of(WiimoteKind kind) {
+  constexpr const char* names[] = {"none", "RVL-CNT-01", "RVL-CNT-01-TR", "USB adapter"};
+  return names[static_cast<int>(kind)];
+}
+
+/// By vendor and product (057e:0306, 057e:0330; 054c:0306 is LEGO's) or by name, which some stacks
+/// give alone. Not the balance board (RVL-WBC-01), nor the Wii U Pro Controller (RVL-CNT-01-UC),
+/// which share these ids.
+WiimoteKind kind_of(const HidInfo& info);
+
+/// All of them, in order of address, then path.
+std::vector<HidInfo> find_wiimotes(HidBus& bus);
+
+}  // namespace vindu

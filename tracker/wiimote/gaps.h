@@ -1,0 +1,65 @@
+// Counts the holes in a stream of dots, and why each was there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/clock.h"
+
+namespace vindu {
+
+/// The later in the list, the more it explains: of several the last counts.
+enum class GapCause {
+  late,       ///< nothing was seen but delay: the radio link
+  silence,    ///< the device said nothing until it was asked again
+  mode,       ///< another program or the kernel chose another report
+  status,     ///< a status report, asked for or not, reset the device's mode
+  extension,  ///< the same, because something was plugged in or out
+  camera,     ///< another program or the kernel wrote to the camera, or switched it off
+  absent,     ///< it was not connected
+};
+inline constexpr std::size_t kGapCauses = 7;
+
+constexpr const char* name_of(GapCause cause) {
+  constexpr const char* names[] = {"late",      "silence", "mode",  "status",
+                                   "extension", "camera",  "absent"};
+  return names[static_cast<int>(cause)];
+}
+
+/// Two samples further apart than this have a gap between them: two Wiimotes on one adapter send
+/// in bursts up to 28 ms apart (thesis table 5.1).
+constexpr Duration kGap = std::chrono::milliseconds(30);
+
+struct GapCount {
+  std::uint64_t gaps = 0;
+  Duration total{};
+  Duration longest{};
+};
+
+using GapCounts = std::array<GapCount, kGapCauses>;
+
+/// Times never go back.
+class GapCounter {
+ public:
+  /// Samples are expected from here on; what is missing counts from the last one, or from here.
+  void expect(Time now);
+  /// Something happened that explains a gap that is open, or opens soon.
+  void suspect(GapCause cause, Time now);
+  /// The samples since `then` were none after all.
+  void none_since(Time then);
+  /// A good sample has come.
+  void sample(Time arrival);
+
+  /// How long there has been no sample; zero while none is expected.
+  Duration open(Time now) const { return last_ ? now - *last_ : Duration{}; }
+  const GapCounts& counts() const { return counts_; }
+
+ private:
+  std::optional<Time> last_;
+  std::optional<GapCause> suspected_;
+  Time suspected_at_{};
+  GapCounts counts_{};
+};
+
+}  // namespace vindu

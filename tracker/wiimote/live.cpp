@@ -1,0 +1,138 @@
+#include "tracker/wiimote/live.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "tracker/wiimote/find.h"
+
+namespace vindu {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kQueue = 512;  // over two seconds at 200 reports a second
+constexpr Duration kLookAgain = milliseconds(500);
+constexpr Duration kPublish = milliseconds(100);
+/// A device that answers nothing and sends nothing for so long is opened anew.
+constexpr Duration kReopen = std::chrono::seconds(5);
+
+}  // namespace
+
+bool WiimoteClaims::claim(const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  return paths_.insert(path).second;
+}
+
+void WiimoteClaims::release(const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  paths_.erase(path);
+}
+
+LiveWiimote::LiveWiimote(HidBus& bus, Clock& clock, WiimoteClaims& claims,
+                         const LiveWiimoteOptions& options)
+    : bus_(bus),
+      clock_(clock),
+      claims_(claims),
+      options_(options),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+std::optional<Observation> LiveWiimote::next(Time until) {
+  const std::lock_guard lock(mutex_);
+  if (queue_.empty() || queue_.front().arrival > until) return std::nullopt;
+  const Observation observation = queue_.front();
+  queue_.pop_front();
+  return observation;
+}
+
+bool LiveWiimote::gone() const {
+  const std::lock_guard lock(mutex_);
+  return !state_.connected;
+}
+
+LiveWiimoteState LiveWiimote::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+void LiveWiimote::wait(const std::stop_token& stop, Duration length) {
+  std::unique_lock lock(mutex_);
+  wake_.wait_for(lock, stop, length, [] { return false; });
+}
+
+void LiveWiimote::publish(bool connected, const std::string& trouble) {
+  const std::lock_guard lock(mutex_);
+  if (trouble != state_.trouble && !trouble.empty()) log_warning(options_.name, trouble);
+  if (connected != state_.connected)
+    log_info(options_.name, connected ? "Wiimote " + device_.address + " is connected"
+                                      : "the Wiimote is gone; waiting for it");
+  state_.connected = connected;
+  state_.device = device_;
+  state_.trouble = trouble;
+  if (reader_) state_.health = reader_->session().health();
+}
+
+/// The device of the wanted address, or the first that can be had; null with what hinders it.
+std::unique_ptr<HidDevice> LiveWiimote::find_device(HidInfo& info, std::string& trouble) {
+  const bool any = options_.address.empty();
+  trouble =
+      any ? "no Wiimote is connected: press a button on a paired one, or run vindu wiimote pair"
+          : "the Wiimote " + options_.address + " is not connected: press a button on it";
+  for (const HidInfo& found : find_wiimotes(bus_)) {
+    if (!any && found.address != options_.address) continue;
+    if (!claims_.claim(found.path)) continue;
+    try {
+      info = found;
+      return bus_.open(found.path);
+    } catch (const Error& error) {
+      trouble = error.what();
+    }
+    claims_.release(found.path);
+  }
+  return nullptr;
+}
+
+void LiveWiimote::read_until_gone(const std::stop_token& stop) {
+  Time published{}, heard = clock_.now();
+  while (!stop.stop_requested() && !reader_->gone() && !reader_->refuses()) {
+    reader_->session().rumble(rumble_);
+    const auto observation = reader_->next(clock_.now() + kPublish);
+    if (observation) {
+      heard = observation->arrival;
+      const std::lock_guard lock(mutex_);
+      if (queue_.size() == kQueue) {
+        queue_.pop_front();
+        ++state_.dropped;
+      }
+      queue_.push_back(*observation);
+    }
+    const Time now = clock_.now();
+    if (now - heard > kReopen) break;
+    if (now - published < kPublish) continue;
+    published = now;
+    publish(true, reader_->session().health().trouble);
+  }
+}
+
+void LiveWiimote::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::string trouble;
+    std::unique_ptr<HidDevice> device = find_device(device_, trouble);
+    if (device) {
+      if (reader_)
+        reader_->reconnect(std::move(device), clock_.now());
+      else
+        reader_.emplace(std::move(device), options_.camera, options_.name, options_.settings);
+      read_until_gone(stop);
+      trouble = reader_->refuses()
+                    ? "the device refuses commands: is it the empty slot of an adapter?"
+                    : reader_->session().health().trouble;
+      reader_->disconnect();
+      claims_.release(device_.path);
+    }
+    publish(false, trouble);
+    wait(stop, kLookAgain);
+  }
+}
+
+}  // namespace vindu

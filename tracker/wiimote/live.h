@@ -1,0 +1,81 @@
+// A Wiimote that is used for days: a thread of its own finds it, reads it, and when it goes away
+// waits for it and takes it back.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "tracker/observation_source.h"
+#include "tracker/wiimote/reader.h"
+
+namespace vindu {
+
+/// Which device each camera has, so that no two read the same. Thread-safe.
+class WiimoteClaims {
+ public:
+  /// True when nobody had it.
+  bool claim(const std::string& path);
+  void release(const std::string& path);
+
+ private:
+  std::mutex mutex_;
+  std::set<std::string> paths_;
+};
+
+struct LiveWiimoteOptions {
+  int camera = 0;       ///< index in the site's list
+  std::string name;     ///< of the camera, for messages
+  std::string address;  ///< of the device; empty: the first that nobody else has
+  WiimoteSettings settings;
+};
+
+/// What the thread knows, for people to look at.
+struct LiveWiimoteState {
+  bool connected = false;
+  HidInfo device;  ///< the last one
+  WiimoteHealth health;
+  std::uint64_t dropped = 0;  ///< observations that nobody took in time
+  std::string trouble;        ///< why there is no device, or what is wrong with it
+};
+
+/// The reader's thread is the only one that touches the device. next(), gone() and state() are
+/// thread-safe; bus, clock and claims must outlive this.
+class LiveWiimote final : public ObservationSource {
+ public:
+  LiveWiimote(HidBus& bus, Clock& clock, WiimoteClaims& claims, const LiveWiimoteOptions& options);
+
+  /// What is there already; never waits.
+  std::optional<Observation> next(Time until) override;
+  /// Not connected now.
+  bool gone() const override;
+  LiveWiimoteState state() const;
+
+  void rumble(bool on) { rumble_ = on; }
+
+ private:
+  void run(const std::stop_token& stop);
+  std::unique_ptr<HidDevice> find_device(HidInfo& info, std::string& trouble);
+  void read_until_gone(const std::stop_token& stop);
+  void wait(const std::stop_token& stop, Duration length);
+  void publish(bool connected, const std::string& trouble);
+
+  HidBus& bus_;
+  Clock& clock_;
+  WiimoteClaims& claims_;
+  LiveWiimoteOptions options_;
+  std::optional<WiimoteReader> reader_;  // of the thread
+  HidInfo device_;                       // of the thread
+  std::atomic<bool> rumble_ = false;
+  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable_any wake_;
+  std::deque<Observation> queue_;
+  LiveWiimoteState state_;
+  std::jthread thread_;
+};
+
+}  // namespace vindu
