@@ -1,99 +1,127 @@
 // The reader on a device that is played from a list.
 #include "tracker/wiimote/reader.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
-
-#include "core/error.h"
-#include "tracker/wiimote/emulator.h"
 
 namespace vindu {
 namespace {
 
 using std::chrono::milliseconds;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Bytes = std::vector<std::uint8_t>;
 
 struct Event {
   Time arrival{};
-  std::vector<std::uint8_t> bytes;  // empty: the device goes away
+  Bytes bytes;  // empty: the device goes away
+};
+
+/// What was played and written, seen from the test.
+struct Script {
+  std::vector<Event> events;
+  std::vector<Bytes> written = {};
+  bool accepts = true;
+  std::size_t next = 0;
 };
 
 class PlayedDevice final : public HidDevice {
  public:
-  PlayedDevice(std::vector<Event> events, std::vector<std::uint8_t>* written, bool accepts = true)
-      : events_(std::move(events)), written_(written), accepts_(accepts) {}
+  explicit PlayedDevice(Script& script) : script_(script) {}
 
   HidRead read(std::span<std::uint8_t> buffer, Time until) override {
-    if (next_ == events_.size() || events_[next_].arrival > until) return {};
-    const Event& event = events_[next_++];
+    if (script_.next == script_.events.size()) return {};
+    const Event& event = script_.events[script_.next];
+    if (event.arrival > until) return {};
+    ++script_.next;
     if (event.bytes.empty()) return {HidStatus::gone, 0, {}};
     std::ranges::copy(event.bytes, buffer.begin());
     return {HidStatus::report, event.bytes.size(), event.arrival};
   }
   bool write(std::span<const std::uint8_t> report) override {
-    written_->assign(report.begin(), report.end());
-    return accepts_;
+    script_.written.emplace_back(report.begin(), report.end());
+    return script_.accepts;
   }
 
  private:
-  std::vector<Event> events_;
-  std::vector<std::uint8_t>* written_;
-  bool accepts_;
-  std::size_t next_ = 0;
+  Script& script_;
 };
 
-std::vector<std::uint8_t> report_with_dot(int x_px) {
-  SensorState state;
-  state.slots[1] = SensorDot{x_px, 100, 3};
-  const auto bytes = encode_report_0x33(state);
-  return {bytes.begin(), bytes.end()};
+Time at_ms(int ms) { return Time{} + milliseconds(ms); }
+
+// One dot in slot 1, (x, 100) size 3, x below 256.
+Bytes report_with_dot(std::uint8_t x_px) {
+  return {0x33, 0,   0,    0x80, 0x80, 0x9a, 0xff, 0xff, 0xff,
+          x_px, 100, 0x03, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff};
 }
 
-TEST(WiimoteReader, asks_for_report_0x33_continuously) {
-  std::vector<std::uint8_t> written;
-  const WiimoteReader reader(std::make_unique<PlayedDevice>(std::vector<Event>{}, &written), 0,
-                             "left");
-  EXPECT_EQ(written, (std::vector<std::uint8_t>{0x12, 0x04, 0x33}));
-}
-
-TEST(WiimoteReader, fails_with_the_devices_name_when_the_request_is_refused) {
-  std::vector<std::uint8_t> written;
-  auto device = std::make_unique<PlayedDevice>(std::vector<Event>{}, &written, false);
-  try {
-    const WiimoteReader reader(std::move(device), 0, "left");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("left"), std::string::npos);
-  }
-}
-
-TEST(WiimoteReader, drains_what_has_arrived_in_order_and_skips_other_reports) {
-  std::vector<std::uint8_t> written;
-  const std::vector<Event> events = {{Time{milliseconds(1)}, report_with_dot(10)},
-                                     {Time{milliseconds(2)}, {0x20, 0, 0, 0, 0, 0, 0}},
-                                     {Time{milliseconds(3)}, report_with_dot(20)},
-                                     {Time{milliseconds(9)}, report_with_dot(30)}};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(events, &written), 1, "right");
+TEST(WiimoteReader, DrainsWhatHasArrivedInOrderAndSkipsReportsWithoutDots) {
+  Script script{.events = {{at_ms(1), report_with_dot(10)},
+                           {at_ms(2), {0x20, 0, 0, 0, 0, 0, 0}},
+                           {at_ms(2), {0x30, 0, 0}},
+                           {at_ms(3), report_with_dot(20)},
+                           {at_ms(9), report_with_dot(30)}}};
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 1, "right");
   std::vector<Observation> seen;
-  while (const auto observation = reader.next(Time{milliseconds(5)})) seen.push_back(*observation);
+  while (const auto observation = reader.next(at_ms(5))) seen.push_back(*observation);
   ASSERT_EQ(seen.size(), 2u);
   EXPECT_EQ(seen[0].camera, 1);
-  EXPECT_EQ(seen[0].arrival, Time{milliseconds(1)});
-  EXPECT_EQ(seen[0].dots[0], (Dot{10, 100, 3}));
-  EXPECT_EQ(seen[1].arrival, Time{milliseconds(3)});
-  EXPECT_EQ(reader.counts().reports, 2u);
-  EXPECT_EQ(reader.counts().refused, 1u);
+  EXPECT_EQ(seen[0].arrival, at_ms(1));
+  EXPECT_THAT(seen[0].dots, ElementsAre(Dot{10, 100, 3}));
+  EXPECT_EQ(seen[1].arrival, at_ms(3));
+  EXPECT_EQ(reader.session().health().samples, 3u);
   EXPECT_FALSE(reader.gone());
 }
 
-TEST(WiimoteReader, ends_when_the_device_is_gone) {
-  std::vector<std::uint8_t> written;
-  const std::vector<Event> events = {{Time{}, report_with_dot(10)}, {Time{}, {}}};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(events, &written), 0, "left");
-  EXPECT_TRUE(reader.next(Time{}));
-  EXPECT_FALSE(reader.next(Time{}));
+TEST(WiimoteReader, HandsOutAnObservationWithoutDotsWhenNoneAreInView) {
+  Bytes none = report_with_dot(0);
+  std::fill(none.begin() + 6, none.end(), 0xff);
+  Script script{.events = {{at_ms(1), none}}};
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  const auto observation = reader.next(at_ms(5));
+  ASSERT_TRUE(observation);
+  EXPECT_THAT(observation->dots, IsEmpty());
+}
+
+TEST(WiimoteReader, CountsReportsThatNobodyCanRead) {
+  Script script{.events = {{at_ms(1), {0x33, 0, 0}}, {at_ms(2), {0x77}}}};
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  EXPECT_FALSE(reader.next(at_ms(5)));
+  EXPECT_EQ(reader.session().health().refused, 2u);
+}
+
+TEST(WiimoteReader, BeginsWithAStatusRequestAndRepeatsWhatIsNotAnswered) {
+  Script script{.events = {}};
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  reader.next(at_ms(1));
+  EXPECT_THAT(script.written, ElementsAre(Bytes{0x15, 0x00}));
+  reader.next(at_ms(600));
+  EXPECT_THAT(script.written, ElementsAre(Bytes{0x15, 0x00}, Bytes{0x15, 0x00}, Bytes{0x15, 0x00}));
+}
+
+TEST(WiimoteReader, SaysThatADeviceRefusesWhatIsWritten) {
+  Script script{.events = {}, .accepts = false};
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  reader.next(at_ms(1));
+  EXPECT_TRUE(reader.refuses());
+}
+
+TEST(WiimoteReader, EndsWhenTheDeviceIsGoneAndGoesOnWhenItIsBack) {
+  Script script{.events = {{at_ms(0), report_with_dot(10)}, {at_ms(0), {}}}};
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  EXPECT_TRUE(reader.next(at_ms(0)));
+  EXPECT_FALSE(reader.next(at_ms(0)));
   EXPECT_TRUE(reader.gone());
-  EXPECT_FALSE(reader.next(Time{}));
+  EXPECT_FALSE(reader.next(at_ms(1)));
+  Script again{.events = {{at_ms(50), report_with_dot(20)}}};
+  reader.reconnect(std::make_unique<PlayedDevice>(again), at_ms(40));
+  EXPECT_TRUE(reader.next(at_ms(60)));
+  EXPECT_THAT(again.written, Contains(Bytes{0x15, 0x00}));
+  EXPECT_EQ(reader.session().health().samples, 2u);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ TEST(WiimoteReport, ReadsExtendedDots) {
   const auto data = read_as<DataReport>(kExtended);
   EXPECT_EQ(data.buttons, 0x0808);
   EXPECT_THAT(data.acceleration_raw, Optional(ElementsAre(513, 510, 618)));
-  EXPECT_THAT(*data.slots, ElementsAre(dot(511, 384, 3), std::nullopt, dot(1023, 767, 15),
-                                       dot(0, 0, 1)));
+  EXPECT_THAT(*data.slots,
+              ElementsAre(dot(511, 384, 3), std::nullopt, dot(1023, 767, 15), dot(0, 0, 1)));
   EXPECT_FALSE(data.camera_silent);
 }
 
@@ -78,7 +78,8 @@ const Bytes kBasicDots = {0xff, 0x00, 0x4a, 0x00, 0xff, 0xff, 0x00, 0x3f, 0xff, 
 
 TEST(WiimoteReport, ReadsBasicDotsWithAndWithoutAcceleration) {
   Bytes with = {0x37, 0x20, 0x00, 0x81, 0x80, 0x9a}, without = {0x36, 0x00, 0x80};
-  for (Bytes* bytes : {&with, &without}) bytes->insert(bytes->end(), kBasicDots.begin(), kBasicDots.end());
+  for (Bytes* bytes : {&with, &without})
+    bytes->insert(bytes->end(), kBasicDots.begin(), kBasicDots.end());
   with.resize(22, 0xee), without.resize(22, 0xee);  // the extension's
   const auto slots = ElementsAre(dot(255, 256), dot(512, 767), dot(1023, 0), std::nullopt);
   EXPECT_THAT(*read_as<DataReport>(with).slots, slots);
@@ -113,7 +114,7 @@ TEST(WiimoteReport, JoinsTheHalvesOfFullDots) {
 }
 
 TEST(WiimoteReport, SaysWhenTheCameraSaysNothing) {
-  for (const std::uint8_t fill : {0x00, 0xff}) {
+  for (const std::uint8_t fill : {std::uint8_t{0x00}, std::uint8_t{0xff}}) {
     Bytes bytes = {0x33, 0, 0, 0x80, 0x80, 0x9a};
     bytes.resize(18, fill);
     EXPECT_TRUE(read_as<DataReport>(bytes).camera_silent);

@@ -26,7 +26,7 @@ void GapCounter::none_since(Time then) {
 void GapCounter::sample(Time arrival) {
   const Duration gap = last_ ? arrival - *last_ : Duration{};
   last_ = arrival;
-  if (gap > kGap) {
+  if (gap > (suspected_ ? kGapWithCause : kGap)) {
     GapCount& count = counts_[static_cast<std::size_t>(suspected_.value_or(GapCause::late))];
     ++count.gaps;
     count.total += gap;

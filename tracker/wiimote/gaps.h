@@ -30,6 +30,8 @@ constexpr const char* name_of(GapCause cause) {
 /// Two samples further apart than this have a gap between them: two Wiimotes on one adapter send
 /// in bursts up to 28 ms apart (thesis table 5.1).
 constexpr Duration kGap = std::chrono::milliseconds(30);
+/// The same where there is a reason to expect one: over one and a half periods.
+constexpr Duration kGapWithCause = std::chrono::milliseconds(15);
 
 struct GapCount {
   std::uint64_t gaps = 0;

@@ -153,7 +153,11 @@ void WiimoteSession::exchange_deserted(Time now) {
 void WiimoteSession::take_foreign_command(Time arrival) {
   if (!watching()) return;
   gaps_.suspect(GapCause::camera, arrival);
-  next_check_ = arrival + kFirstCheck;
+  check_soon(arrival);
+}
+
+void WiimoteSession::check_soon(Time now) {
+  next_check_ = std::min(next_check_, now + kFirstCheck);
 }
 
 void WiimoteSession::keep_calibration(const Report& report) {
@@ -165,18 +169,25 @@ void WiimoteSession::keep_calibration(const Report& report) {
 
 void WiimoteSession::take_status(const StatusReport& status, Time arrival) {
   const bool plugged = health_.status && health_.status->extension != status.extension;
-  gaps_.suspect(plugged ? GapCause::extension : GapCause::status, arrival);
   health_.status = status;
-  if (watching() && !status.camera_on) next_check_ = arrival;
+  if (!watching()) return;
+  gaps_.suspect(plugged ? GapCause::extension : GapCause::status, arrival);
+  if (!status.camera_on) next_check_ = arrival;
 }
 
 std::optional<WiimoteSample> WiimoteSession::take_data(const DataReport& data, Time arrival) {
   const bool expected = data.id == data_report_id(settings_.format);
   if (!data.camera_silent) silent_since_.reset();
-  if (!expected && watching()) gaps_.suspect(GapCause::mode, arrival);
+  if (!expected && watching()) {
+    gaps_.suspect(GapCause::mode, arrival);
+    check_soon(arrival);
+  }
   if (expected) {
-    if (data.camera_silent && !silent_since_) silent_since_ = arrival;
-    if (!camera_lost_ || !data.camera_silent) gaps_.sample(arrival);
+    if (data.camera_silent && !silent_since_) {  // nobody in view, or switched off?
+      silent_since_ = arrival;
+      check_soon(arrival);
+    }
+    if (phase_ != Phase::greeting && !(camera_lost_ && data.camera_silent)) gaps_.sample(arrival);
     next_request_ = arrival + kStopped;
     restart_at_ = arrival + kRestart;
   }
@@ -208,7 +219,7 @@ std::optional<OutputReport> WiimoteSession::watch(Time now) {
   if (gaps_.open(now) > kGap) {
     exchange_.abandon();
     phase_ = Phase::streaming;
-    next_check_ = now + kFirstCheck;
+    check_soon(now);
   }
   next_request_ = now + kAskAgain;
   return request_stream(settings_.format);

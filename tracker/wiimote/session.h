@@ -78,6 +78,7 @@ class WiimoteSession {
   void exchange_failed(Time now);
   void exchange_deserted(Time now);
   void take_foreign_command(Time arrival);
+  void check_soon(Time now);
   void take_status(const StatusReport& status, Time arrival);
   void keep_calibration(const Report& report);
   std::optional<WiimoteSample> take_data(const DataReport& data, Time arrival);
