@@ -14,5 +14,6 @@ void add_view(CLI::App& parent, Action& chosen);
 void add_render(CLI::App& parent, Action& chosen);
 void add_simulate(CLI::App& parent, Action& chosen);
 void add_check(CLI::App& parent, Action& chosen);
+void add_wiimote(CLI::App& parent, Action& chosen);
 
 }  // namespace vindu::app

@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   vindu::app::add_view(app, chosen);
   vindu::app::add_render(app, chosen);
   vindu::app::add_check(app, chosen);
+  vindu::app::add_wiimote(app, chosen);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "core/error.h"
 
@@ -55,6 +56,16 @@ Image Picture::read(const RectPx& part) const {
     std::swap_ranges(&image.at(0, row), &image.at(0, row) + size.width,
                      &image.at(0, size.height - 1 - row));
   return image;
+}
+
+void Picture::write(const Image& image) {
+  assert(image.width_px == size_.width && image.height_px == size_.height);
+  Image flipped = image;
+  for (int row = 0; row < size_.height; ++row)
+    std::copy_n(&image.at(0, row), size_.width, &flipped.at(0, size_.height - 1 - row));
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(texture_.name(), 0, 0, 0, size_.width, size_.height, GL_RGBA,
+                      GL_UNSIGNED_BYTE, flipped.pixels.data());
 }
 
 Canvas::Canvas(SizePx size, const Look& look)

@@ -38,6 +38,8 @@ class Picture {
   void make_mipmaps() { glGenerateTextureMipmap(texture_.name()); }
   Image read() const;
   Image read(const RectPx& part) const;
+  /// `image` must have this picture's size.
+  void write(const Image& image);
 
  private:
   SizePx size_;

@@ -65,12 +65,11 @@ std::uint8_t mode_of(IrFormat format) {
   return 5;
 }
 
-std::uint8_t leds_of(int player) {
-  const int lit = player >= 1 && player <= 4 ? 1 << (player - 1) : player & 0x0f;
-  return static_cast<std::uint8_t>(lit << 4);
-}
-
 }  // namespace
+
+int player_leds(int player) {
+  return player >= 1 && player <= 4 ? 1 << (player - 1) : player & 0x0f;
+}
 
 std::uint8_t data_report_id(IrFormat format) {
   switch (format) {
@@ -90,10 +89,14 @@ OutputReport request_stream(IrFormat format) {
 
 OutputReport request_status() { return output({0x15, 0}); }
 
+OutputReport set_leds(int leds, bool rumble) {
+  return output({0x11, static_cast<std::uint8_t>(leds << 4 | (rumble ? 1 : 0))});
+}
+
 OutputReport rumble_only() { return output({0x10, 0}); }
 
 std::vector<Step> greeting_steps(const WiimoteSettings& settings) {
-  const std::uint8_t leds = leds_of(settings.player) | kAcknowledge;
+  const auto leds = static_cast<std::uint8_t>(player_leds(settings.player) << 4 | kAcknowledge);
   return {{.report = request_status(), .answer = Answer::status, .purpose = "ask for its status"},
           read_memory(false, kCalibrationAddress, kCalibrationSize,
                       "read the accelerometer's calibration"),

@@ -40,11 +40,15 @@ struct Step {
 constexpr int kCalibrationAddress = 0x16;  ///< of the accelerometer; a copy follows at 0x20
 constexpr int kCalibrationSize = 10;
 
+/// Bit 0 is the first LED.
+int player_leds(int player);
+
 /// The data report that carries the format.
 std::uint8_t data_report_id(IrFormat format);
 
 OutputReport request_stream(IrFormat format);  ///< continuously; not acknowledged
 OutputReport request_status();
+OutputReport set_leds(int leds, bool rumble);  ///< bit 0: the first LED
 OutputReport rumble_only();  ///< carries nothing but the rumble bit, which the session sets
 
 /// Status, calibration, player LEDs: what is done once a connection.

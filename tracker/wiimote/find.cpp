@@ -1,7 +1,10 @@
 #include "tracker/wiimote/find.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
+
+#include "tracker/wiimote/commands.h"
 
 namespace vindu {
 
@@ -27,5 +30,21 @@ std::vector<HidInfo> find_wiimotes(HidBus& bus) {
                     [](const HidInfo& info) { return std::tie(info.address, info.path); });
   return found;
 }
+
+std::optional<StatusReport> probe(HidDevice& device, Clock& clock, Duration patience) {
+  std::array<std::uint8_t, 64> buffer;
+  const Time end = clock.now() + patience;
+  if (!device.write(request_status().span())) return std::nullopt;
+  while (clock.now() < end) {
+    const HidRead read = device.read(buffer, end);
+    if (read.status != HidStatus::report) return std::nullopt;
+    const ParsedReport parsed = parse_report(std::span(buffer).first(read.size));
+    const auto* status = parsed.report ? std::get_if<StatusReport>(&*parsed.report) : nullptr;
+    if (status) return *status;
+  }
+  return std::nullopt;
+}
+
+double battery_charge(int level) { return std::clamp(2.46 * level / 255 - 0.013, 0.0, 1.0); }
 
 }  // namespace vindu

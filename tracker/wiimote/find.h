@@ -1,9 +1,11 @@
 // Which HID devices are Wiimotes.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tracker/wiimote/hid_device.h"
+#include "tracker/wiimote/report.h"
 
 namespace vindu {
 
@@ -26,5 +28,12 @@ WiimoteKind kind_of(const HidInfo& info);
 
 /// All of them, in order of address, then path.
 std::vector<HidInfo> find_wiimotes(HidBus& bus);
+
+/// Asks for the status, as proof of life; empty when no answer comes in time. A device that is
+/// streaming to somebody else stops for a moment.
+std::optional<StatusReport> probe(HidDevice& device, Clock& clock, Duration patience);
+
+/// The charge of a status report's battery byte, 0 to 1 (a fit by Dolphin: 2.46 V / 255 - 0.013).
+double battery_charge(int level);
 
 }  // namespace vindu

@@ -70,8 +70,8 @@ class HidapiBus final : public HidBus {
     std::vector<HidInfo> found;
     hid_device_info* const first = hid_enumerate(0, 0);
     for (const hid_device_info* info = first; info; info = info->next)
-      found.push_back({info->path, info->vendor_id, info->product_id,
-                       narrow(info->product_string), narrow(info->serial_number)});
+      found.push_back({info->path, info->vendor_id, info->product_id, narrow(info->product_string),
+                       narrow(info->serial_number)});
     hid_free_enumeration(first);
     return found;
   }

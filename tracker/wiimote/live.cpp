@@ -92,22 +92,27 @@ std::unique_ptr<HidDevice> LiveWiimote::find_device(HidInfo& info, std::string& 
   return nullptr;
 }
 
+void LiveWiimote::hand_over(const Observation& observation) {
+  const std::lock_guard lock(mutex_);
+  if (queue_.size() == kQueue) {
+    queue_.pop_front();
+    ++state_.dropped;
+  }
+  queue_.push_back(observation);
+}
+
 void LiveWiimote::read_until_gone(const std::stop_token& stop) {
   Time published{}, heard = clock_.now();
   while (!stop.stop_requested() && !reader_->gone() && !reader_->refuses()) {
     reader_->session().rumble(rumble_);
-    const auto observation = reader_->next(clock_.now() + kPublish);
-    if (observation) {
-      heard = observation->arrival;
-      const std::lock_guard lock(mutex_);
-      if (queue_.size() == kQueue) {
-        queue_.pop_front();
-        ++state_.dropped;
-      }
-      queue_.push_back(*observation);
-    }
+    const auto sample = reader_->next_sample(clock_.now() + kPublish);
     const Time now = clock_.now();
-    if (now - heard > kReopen) break;
+    if (sample) {
+      heard = now;
+      if (options_.on_sample) options_.on_sample(*sample);
+      if (const auto observation = reader_->observation_of(*sample)) hand_over(*observation);
+    }
+    if (now - heard > kReopen) return;
     if (now - published < kPublish) continue;
     published = now;
     publish(true, reader_->session().health().trouble);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <string>
@@ -32,6 +33,7 @@ struct LiveWiimoteOptions {
   std::string name;     ///< of the camera, for messages
   std::string address;  ///< of the device; empty: the first that nobody else has
   WiimoteSettings settings;
+  std::function<void(const WiimoteSample&)> on_sample;  ///< called on the reader's thread
 };
 
 /// What the thread knows, for people to look at.
@@ -62,6 +64,7 @@ class LiveWiimote final : public ObservationSource {
   std::unique_ptr<HidDevice> find_device(HidInfo& info, std::string& trouble);
   void read_until_gone(const std::stop_token& stop);
   void wait(const std::stop_token& stop, Duration length);
+  void hand_over(const Observation& observation);
   void publish(bool connected, const std::string& trouble);
 
   HidBus& bus_;

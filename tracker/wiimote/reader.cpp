@@ -47,9 +47,13 @@ std::optional<WiimoteSample> WiimoteReader::next_sample(Time until) {
 
 std::optional<Observation> WiimoteReader::next(Time until) {
   while (const auto sample = next_sample(until))
-    if (sample->data.slots)
-      return Observation{camera_, sample->arrival, dots_of(*sample->data.slots)};
+    if (const auto observation = observation_of(*sample)) return observation;
   return std::nullopt;
+}
+
+std::optional<Observation> WiimoteReader::observation_of(const WiimoteSample& sample) const {
+  if (!sample.data.slots) return std::nullopt;
+  return Observation{camera_, sample.arrival, dots_of(*sample.data.slots)};
 }
 
 }  // namespace vindu

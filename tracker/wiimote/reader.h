@@ -22,8 +22,10 @@ class WiimoteReader final : public ObservationSource {
   /// The next sample that arrives no later than `until`, which must not go back; call it until it
   /// is empty. Empty for ever once the device is gone.
   std::optional<WiimoteSample> next_sample(Time until);
-  /// The next sample with dots, also when there are none in view.
+  /// The next sample that can have dots, also when there are none in view.
   std::optional<Observation> next(Time until) override;
+  /// Empty for samples of reports that carry no dots.
+  std::optional<Observation> observation_of(const WiimoteSample& sample) const;
 
   bool gone() const override { return gone_; }
   /// The device refused what was written to it last: it is gone, or the empty slot of an adapter.

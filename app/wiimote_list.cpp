@@ -1,0 +1,149 @@
+// vindu wiimote list and identify: which Wiimotes this machine has, how they are, what hinders
+// them; and which of them is which.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "app/wiimote.h"
+#include "core/error.h"
+#include "tracker/wiimote/commands.h"
+#include "tracker/wiimote/find.h"
+
+namespace vindu::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// One line of the list.
+struct Finding {
+  HidInfo info;
+  std::string state;  ///< "ready", or what hinders it, with the remedy
+  std::optional<StatusReport> status;
+};
+
+Finding examine(HidBus& bus, Clock& clock, const HidInfo& info) {
+  const std::vector<std::string> holders = holders_of(info.path);
+  if (!holders.empty())
+    return {info, fmt::format("in use by {}: end that first to use it", fmt::join(holders, ", ")),
+            std::nullopt};
+  try {
+    const auto device = bus.open(info.path);
+    const auto status = probe(*device, clock, milliseconds(600));
+    if (status) return {info, "ready", status};
+    if (kind_of(info) == WiimoteKind::adapter) return {info, "an empty slot", std::nullopt};
+    return {info, "does not answer: press a button on it, or take its batteries out for a moment",
+            std::nullopt};
+  } catch (const Error& error) {
+    return {info, error.what(), std::nullopt};
+  }
+}
+
+std::string battery_text(const std::optional<StatusReport>& status) {
+  if (!status) return "";
+  const int percent = static_cast<int>(100 * battery_charge(status->battery) + 0.5);
+  return fmt::format("{} %{}", percent, status->battery_low ? ", low" : "");
+}
+
+void print_table(const std::vector<Finding>& findings) {
+  if (findings.empty()) {
+    std::puts(
+        "No Wiimote is connected. Press a button on a paired one; pair a new one in the desktop's\n"
+        "Bluetooth settings by its red button. Without one: vindu wiimote watch --emulated");
+    return;
+  }
+  fmt::print("{:>2}  {:<17}  {:<13}  {:<14}  {:<9}  {}\n", "", "address", "kind", "device",
+             "battery", "state");
+  int number = 0;
+  for (const Finding& finding : findings)
+    fmt::print("{:>2}  {:<17}  {:<13}  {:<14}  {:<9}  {}\n", ++number, finding.info.address,
+               name_of(kind_of(finding.info)), finding.info.path, battery_text(finding.status),
+               finding.state);
+}
+
+std::string quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20) quoted += c;
+  }
+  return quoted + '"';
+}
+
+void print_json(const std::vector<Finding>& findings) {
+  for (const Finding& finding : findings) {
+    const std::string battery =
+        finding.status ? fmt::format("{:.3f}", battery_charge(finding.status->battery)) : "null";
+    fmt::print(R"({{"address":{},"kind":{},"path":{},"battery":{},"state":{}}})"
+               "\n",
+               quoted(finding.info.address), quoted(name_of(kind_of(finding.info))),
+               quoted(finding.info.path), battery, quoted(finding.state));
+  }
+}
+
+int list(bool emulated, bool json) {
+  WiimoteBus devices(emulated);
+  std::vector<Finding> findings;
+  for (const HidInfo& info : find_wiimotes(devices.bus()))
+    findings.push_back(examine(devices.bus(), devices.clock(), info));
+  json ? print_json(findings) : print_table(findings);
+  return 0;
+}
+
+/// Rumbles and lets the LEDs run to and fro, then shows `number`.
+int identify(const std::string& which, bool emulated, double seconds) {
+  WiimoteBus devices(emulated);
+  const HidInfo info = choose_wiimote(devices.bus(), which);
+  const auto device = devices.bus().open(info.path);
+  constexpr std::array<int, 6> kRun = {1, 2, 4, 8, 4, 2};
+  constexpr Duration kStep = milliseconds(150);
+  fmt::print("Wiimote {} rumbles and its LEDs run to and fro.\n", info.address);
+  const int steps = static_cast<int>(seconds / 0.15);
+  for (int step = 0; step < steps; ++step) {
+    const bool rumble = step % 6 < 3;
+    if (!device->write(set_leds(kRun[static_cast<std::size_t>(step) % kRun.size()], rumble).span()))
+      throw Error({"takes no commands", info.address, "press a button on it and try again"});
+    devices.clock().sleep_until(devices.clock().now() + kStep);
+  }
+  const auto found = find_wiimotes(devices.bus());
+  const auto place = std::ranges::find(found, info.path, &HidInfo::path);
+  const int number = static_cast<int>(place - found.begin()) + 1;
+  device->write(set_leds(player_leds(number), false).span());
+  return 0;
+}
+
+}  // namespace
+
+void add_wiimote_list(CLI::App& wiimote, Action& chosen) {
+  struct Options {
+    bool emulated = false, json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* app = wiimote.add_subcommand(
+      "list", "The connected Wiimotes: address, kind, battery, and what hinders them");
+  add_emulated(*app, options->emulated);
+  app->add_flag("--json", options->json, "A line of JSON a Wiimote");
+  app->callback([options, &chosen] {
+    chosen = [options] { return list(options->emulated, options->json); };
+  });
+}
+
+void add_wiimote_identify(CLI::App& wiimote, Action& chosen) {
+  struct Options {
+    std::string which;
+    bool emulated = false;
+    double seconds = 3;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* app = wiimote.add_subcommand("identify", "Rumble one and let its LEDs run");
+  app->add_option("WIIMOTE", options->which, "Number as list shows it, or address")->required();
+  app->add_option("--seconds", options->seconds, "How long")->check(CLI::Range(0.2, 60.0));
+  add_emulated(*app, options->emulated);
+  app->callback([options, &chosen] {
+    chosen = [options] { return identify(options->which, options->emulated, options->seconds); };
+  });
+}
+
+}  // namespace vindu::app
