@@ -9,7 +9,7 @@
 
 #include "simulator/helmet.h"
 #include "simulator/person.h"
-#include "simulator/random.h"
+#include "core/random.h"
 #include "tracker/camera_model.h"
 #include "tracker/wiimote/emulator.h"
 #include "tracker/wiimote/hid_device.h"

@@ -9,7 +9,7 @@
 #include "core/clock.h"
 #include "core/pose.h"
 #include "core/site.h"
-#include "simulator/random.h"
+#include "core/random.h"
 
 namespace vindu {
 
