@@ -1,21 +1,53 @@
 #include "simulator/emulated_room.h"
 
 #include <cassert>
+#include <fstream>
+#include <iterator>
+
+#include "renderer/resources.h"
 
 namespace vindu {
+namespace {
+
+std::vector<std::uint8_t> memory_image() {
+  std::ifstream file(find_asset("wiimote/eeprom.bin"), std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+EmulatedDeviceOptions device_options(const EmulatedWiimoteOptions& wiimote, std::uint64_t seed,
+                                     const CameraConfig& camera) {
+  EmulatedDeviceOptions options;
+  options.info.address = camera.address;
+  options.seed = seed;
+  options.link = wiimote.link;
+  options.ring = wiimote.ring;
+  if (wiimote.kernel) options.kernel = KernelOptions{.seed = seed};
+  options.firmware.eeprom = memory_image();
+  options.firmware.camera_already_on = wiimote.camera_already_on;
+  Random random(seed ^ 0x5851f42d4c957f2dULL);
+  options.firmware.phase = from_seconds(random.uniform(0, seconds(options.firmware.report_period)));
+  return options;
+}
+
+}  // namespace
 
 EmulatedRoom::EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOptions& options)
-    : cameras_(site.cameras),
-      head_(site.head),
-      clock_(clock),
-      options_(options),
-      person_(site.head, site.wall.room_from_wall, options.person) {}
+    : person_(std::make_unique<Person>(site.head, site.wall.room_from_wall, options.person)),
+      bus_(std::make_unique<EmulatedHidBus>(clock)) {
+  for (std::size_t i = 0; i < site.cameras.size(); ++i) {
+    const std::uint64_t seed = options.wiimote.seed + 0x9e3779b97f4a7c15ULL * (i + 1);
+    EmulatedSensor sensor(site.cameras[i], site.head, options.wiimote.noise_px, seed,
+                          options.wiimote.glints);
+    bus_->add(device_options(options.wiimote, seed, site.cameras[i]),
+              [sensor, person = person_.get()](Time time) mutable {
+                return sensor.view(person->room_from_head(time));
+              });
+  }
+}
 
 std::unique_ptr<HidDevice> EmulatedRoom::connect(std::size_t camera) const {
-  assert(camera < cameras_.size());
-  EmulatedWiimoteOptions options = options_.wiimote;
-  options.seed += 0x9e3779b97f4a7c15ULL * (camera + 1);
-  return std::make_unique<EmulatedWiimote>(cameras_[camera], head_, person_, clock_, options);
+  assert(camera < bus_->size());
+  return bus_->open(bus_->path(camera));
 }
 
 }  // namespace vindu

@@ -8,6 +8,7 @@
 #include "core/site.h"
 #include "simulator/emulated_wiimote.h"
 #include "simulator/person.h"
+#include "tracker/wiimote/emulator_bus.h"
 
 namespace vindu {
 
@@ -16,24 +17,24 @@ struct EmulatedRoomOptions {
   EmulatedWiimoteOptions wiimote;  ///< each device derives its own seed from this one
 };
 
-/// The clock must outlive the room, and the room its devices. Connecting is bound to one thread;
-/// each device then to its reader's.
+/// The clock must outlive the room, and the room its devices and their handles. Its devices are
+/// thread-safe, as far as the clock is; each handle is bound to its reader's thread.
 class EmulatedRoom {
  public:
   EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOptions& options = {});
 
   /// The truth, for figures and pictures only.
-  const Person& person() const { return person_; }
+  const Person& person() const { return *person_; }
 
-  /// A device that stands where the site's camera stands.
+  /// Opens the device that stands where the site's camera stands.
   std::unique_ptr<HidDevice> connect(std::size_t camera) const;
 
+  /// All of them, in the order of the site's cameras: to be found as real ones are, or broken.
+  EmulatedHidBus& bus() const { return *bus_; }
+
  private:
-  std::vector<CameraConfig> cameras_;
-  HeadConfig head_;
-  Clock& clock_;
-  EmulatedRoomOptions options_;
-  Person person_;
+  std::unique_ptr<Person> person_;  // stays where it is: the devices look at it
+  std::unique_ptr<EmulatedHidBus> bus_;
 };
 
 }  // namespace vindu

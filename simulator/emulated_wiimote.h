@@ -1,77 +1,59 @@
-// A Wiimote that is not there: it watches the simulated person and answers as the device would, in
-// report bytes and arrival times. What it knows of the truth stays inside.
+// What an emulated Wiimote of the virtual room sees: the helmet's LEDs and whatever reflects them,
+// through its lens. Bytes, registers and arrival times are the emulator's in tracker/wiimote/.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
+#include <vector>
 
+#include "core/random.h"
 #include "simulator/helmet.h"
 #include "simulator/person.h"
-#include "core/random.h"
 #include "tracker/camera_model.h"
-#include "tracker/wiimote/emulator.h"
-#include "tracker/wiimote/hid_device.h"
+#include "tracker/wiimote/emulator_device.h"
 
 namespace vindu {
+
+/// A bright point of the room: a lamp, the sun in a window frame.
+struct Glint {
+  Vec3 x_in_room = Vec3::Zero();
+  double brightness = 0;  ///< as a cluster's, 1 straight ahead at 1 m
+};
 
 struct EmulatedWiimoteOptions {
   std::uint64_t seed = 1;
   double noise_px = 0.3;  ///< sigma of each coordinate, before rounding to whole units
-  Duration period = std::chrono::milliseconds(10);
-  Duration transport_delay = std::chrono::milliseconds(6);     ///< sample to arrival, at least
-  Duration transport_jitter = std::chrono::microseconds(500);  ///< at most on top, uniform
+  std::vector<Glint> glints;
+  /// True: streams dots as soon as report 0x33 is asked for; false: the host must start its camera.
+  bool camera_already_on = true;
+  LinkOptions link;
+  bool kernel = false;   ///< hid-wiimote interferes
+  std::size_t ring = 0;  ///< reports kept for a slow reader; 0: all, hidraw: 64
 };
 
-/// The camera and the logic behind it: the four brightest dots, each in a slot that it keeps while
-/// it is seen. Bound to one thread.
+/// The light on the sensor. Bound to one thread.
 class EmulatedSensor {
  public:
   EmulatedSensor(const CameraConfig& config, const HeadConfig& head, double noise_px,
-                 std::uint64_t seed);
+                 std::uint64_t seed, std::vector<Glint> glints = {});
 
-  /// What the sensor reports of a head there.
+  /// What reaches the Wiimote, of a head there.
+  SensorView view(const Rigid3& room_from_head);
+
+  /// What a camera on the Wii's sensitivity level 4 makes of it, and an accelerometer that shows
+  /// 0x200 at 0 g and 0x268 at 1 g.
   SensorState look(const Rigid3& room_from_head);
 
  private:
-  struct Spot {
-    std::size_t led = 0;
-    Vec2 raw_px = Vec2::Zero();
-    double brightness = 0;
-  };
-
-  std::vector<Spot> four_brightest(const Rigid3& room_from_head) const;
-  void assign_slots(const std::vector<Spot>& spots);
+  void add_spot(const Vec3& x_in_room, double brightness, std::vector<SensorSpot>& spots);
 
   CameraModel camera_;
   Helmet helmet_;
+  std::vector<Glint> glints_;
   double noise_px_;
   Random random_;
-  std::array<std::optional<std::size_t>, 4> led_of_slot_;
-};
-
-/// Silent until it is asked for a stream of report 0x33 (output report 0x12), as the real one is;
-/// of the output reports it obeys that one. Clock and person must outlive it.
-class EmulatedWiimote final : public HidDevice {
- public:
-  EmulatedWiimote(const CameraConfig& config, const HeadConfig& head, const Person& person,
-                  Clock& clock, const EmulatedWiimoteOptions& options);
-
-  HidRead read(std::span<std::uint8_t> buffer, Time until) override;
-  bool write(std::span<const std::uint8_t> report) override;
-
- private:
-  void plan_next_sample();
-
-  const Person& person_;
-  Clock& clock_;
-  EmulatedWiimoteOptions options_;
-  EmulatedSensor sensor_;
-  Random timing_;
-  bool streaming_ = false;
-  Time sample_{};   // of the report that comes next
-  Time arrival_{};  // of the same
+  std::array<double, 3> acceleration_g_;
+  EmulatedCamera logic_;
 };
 
 }  // namespace vindu

@@ -224,9 +224,10 @@ std::optional<EmulatedReport> WiimoteEmulator::data_report(Time at, bool always)
   }
   const Sample sample = take(at);
   const EmulatedReport report = compose(sample, pair ? std::uint8_t{0x3e} : mode_, at);
-  if (!always && last_ && last_->bytes == report.bytes) return std::nullopt;
-  if (pair) second_half_ = sample;
+  const bool changed = last_ && last_->bytes != report.bytes;
   last_ = report;
+  if (!always && !changed) return std::nullopt;
+  if (pair) second_half_ = sample;
   return report;
 }
 

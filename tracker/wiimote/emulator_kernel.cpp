@@ -26,6 +26,7 @@ HidWiimoteKernel::HidWiimoteKernel(const KernelOptions& options, Time found)
   Steps steps = {{{0x15, 0x00}, 0x20}, {{0x11, 0x10}}};
   const Steps detect = detect_extensions();
   steps.insert(steps.end(), detect.begin(), detect.end());
+  steps.push_back({{0x15, 0x00}, 0x20});  // its power supply is registered, and read at once
   schedule(steps, found);
 }
 
