@@ -11,9 +11,11 @@ constexpr Duration kAnswerTimeout = std::chrono::seconds(1);
 constexpr Duration kMotionPlusPeriod = std::chrono::seconds(4);
 
 Bytes write_register(std::uint8_t chip, std::uint8_t offset, const Bytes& data) {
-  Bytes bytes = {0x16, 0x04, chip, 0x00, offset, static_cast<std::uint8_t>(data.size())};
-  bytes.insert(bytes.end(), data.begin(), data.end());
-  bytes.resize(22);
+  Bytes bytes(22);
+  const std::uint8_t head[] = {0x16, 0x04,   chip,
+                               0x00, offset, static_cast<std::uint8_t>(data.size())};
+  std::ranges::copy(head, bytes.begin());
+  std::ranges::copy(data, bytes.begin() + 6);
   return bytes;
 }
 
