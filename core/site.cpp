@@ -138,8 +138,43 @@ void read_scene(TomlTable& root, SceneConfig& scene) {
   table->finish();
 }
 
-Intrinsics read_intrinsics(TomlTable& table) {
+BlobOptions read_blob_options(TomlTable& table) {
+  BlobOptions blobs;
+  blobs.threshold = table.integer("threshold", {1, 254}).value_or(blobs.threshold);
+  blobs.min_area_px = table.integer("min_area_px", {1, 1e6}).value_or(blobs.min_area_px);
+  blobs.max_area_px = table.integer("max_area_px", {1, 1e6}).value_or(blobs.max_area_px);
+  blobs.max_dots = table.integer("max_dots", {1, 16}).value_or(blobs.max_dots);
+  if (blobs.min_area_px > blobs.max_area_px)
+    table.fail("min_area_px", "leaves no dots: it is more than max_area_px, which is " +
+                                  std::to_string(blobs.max_area_px));
+  return blobs;
+}
+
+VideoConfig read_video(TomlTable& table) {
+  VideoConfig video;
+  video.device = table.text("device").value_or("");
+  video.file = table.text("file").value_or("");
+  if (table.has("device") && table.has("file"))
+    table.fail("device", "stands beside file; give one of both");
+  video.width_px = table.integer("width_px", {16, 16384}).value_or(video.width_px);
+  video.height_px = table.integer("height_px", {16, 16384}).value_or(video.height_px);
+  video.rate_hz = table.number("rate_hz", {0.1, 2000});
+  video.exposure = table.integer("exposure", {0, 1e6});
+  video.gain = table.integer("gain", {0, 1e6});
+  video.blobs = read_blob_options(table);
+  return video;
+}
+
+/// A video camera's principal point is the middle of its picture, unless the file knows better.
+Intrinsics intrinsics_before_calibration(const CameraConfig& camera) {
   Intrinsics intrinsics;
+  if (camera.source != CameraSource::video) return intrinsics;
+  intrinsics.cx_px = 0.5 * (camera.video.width_px - 1);
+  intrinsics.cy_px = 0.5 * (camera.video.height_px - 1);
+  return intrinsics;
+}
+
+Intrinsics read_intrinsics(TomlTable& table, Intrinsics intrinsics) {
   intrinsics.fx_px = intrinsics.fy_px =
       table.number("focal_px", {10, 1e5}).value_or(intrinsics.fx_px);
   intrinsics.fy_px *= table.number("focal_aspect", {0.5, 2}).value_or(1);
@@ -184,6 +219,7 @@ CameraSource source_from(const std::string& name) {
                            : CameraSource::emulated;
 }
 
+/// Fields of another source are not known, except that an emulated camera may stand in for any.
 void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
   for (TomlTable& table : root.tables("camera")) {
     table.require("name", "\"left\"");
@@ -193,10 +229,13 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
     if (!camera.name.empty() &&
         std::ranges::find(cameras, camera.name, &CameraConfig::name) != cameras.end())
       table.fail("name", "\"" + camera.name + "\" stands twice; give every camera its own name");
-    camera.source =
-        source_from(table.one_of("source", {"emulated", "wiimote", "video"}).value_or("emulated"));
-    camera.address = table.text("address").value_or("");
-    camera.intrinsics = read_intrinsics(table);
+    const auto source = table.one_of("source", {"emulated", "wiimote", "video"});
+    camera.source = source_from(source.value_or("emulated"));
+    if (camera.source != CameraSource::wiimote) camera.video = read_video(table);
+    if (camera.source != CameraSource::video) camera.address = table.text("address").value_or("");
+    if (camera.source == CameraSource::video && !table.has("device") && !table.has("file"))
+      table.fail("device", "is missing; write device = \"/dev/video0\", or file for a video");
+    camera.intrinsics = read_intrinsics(table, intrinsics_before_calibration(camera));
     camera.room_from_camera = read_camera_pose(table);
     table.finish();
     cameras.push_back(std::move(camera));
@@ -218,8 +257,10 @@ Site read_site(const std::string& file) {
   root.has("tile");  // read with the wall, known even where that failed
   root.finish();
   problems.throw_if_any();
-  if (!site.scene.model.empty())
-    site.scene.model = (std::filesystem::path(file).parent_path() / site.scene.model).string();
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (!site.scene.model.empty()) site.scene.model = (folder / site.scene.model).string();
+  for (CameraConfig& camera : site.cameras)
+    if (!camera.video.file.empty()) camera.video.file = (folder / camera.video.file).string();
   return site;
 }
 

@@ -24,10 +24,31 @@ struct Intrinsics {
 
 enum class CameraSource { emulated, wiimote, video };
 
+/// Which spots of an infrared picture are dots.
+struct BlobOptions {
+  int threshold = 64;      ///< grey value, 0..255, that a pixel must exceed
+  int min_area_px = 3;     ///< pixels; less is noise
+  int max_area_px = 2000;  ///< more is a lamp or a window
+  int max_dots = 16;       ///< the brightest
+};
+
+/// A V4L2 camera, or a video file in its place. What is not given stays as the camera has it.
+struct VideoConfig {
+  std::string device;  ///< "/dev/video0"; empty: there is a file
+  std::string file;    ///< or a sequence of pictures, "frames/%04d.png"
+  int width_px = 640;
+  int height_px = 480;
+  std::optional<double> rate_hz;  ///< of a file: in place of its own frame times
+  std::optional<int> exposure;    ///< as the driver counts it; 100 us where it follows V4L2
+  std::optional<int> gain;        ///< as the driver counts it
+  BlobOptions blobs;
+};
+
 struct CameraConfig {
   std::string name;
   CameraSource source = CameraSource::emulated;
-  std::string address;  ///< of the device; empty: any
+  std::string address;  ///< of a Wiimote; empty: any
+  VideoConfig video;    ///< where that is the source
   Intrinsics intrinsics;
   Rigid3 room_from_camera;  ///< camera: +x right, +y down, +z along the optical axis
 };

@@ -35,6 +35,8 @@ TEST_P(SiteErrors, NameFileLineFieldValueAndWhatIsAllowed) {
 }
 
 const std::string kCamera = "[[camera]]\nname = \"a\"\nsource = \"emulated\"\n";
+const std::string kVideo =
+    "[[camera]]\nname = \"a\"\nsource = \"video\"\nposition_m = [0, 1, 2]\npitch_deg = 90\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Of, SiteErrors,
@@ -126,7 +128,28 @@ INSTANTIATE_TEST_SUITE_P(
              "[[camera]]\nname = \"a\"\nsource = \"wimote\"\nposition_m = [0, 1, 2]\n"
              "look_at_m = [0, 0, 0]\n",
              "FILE:10: camera[0].source: is \"wimote\" (did you mean \"wiimote\"?); allowed: "
-             "emulated, wiimote, video"}),
+             "emulated, wiimote, video"},
+        Case{"AVideoCameraWithoutADevice", kVideo,
+             "FILE:8: camera[0].device: is missing; write device = \"/dev/video0\", or file for a "
+             "video"},
+        Case{"AVideoCameraWithDeviceAndFile",
+             kVideo + "file = \"a.avi\"\ndevice = \"/dev/video0\"\n",
+             "FILE:14: camera[0].device: stands beside file; give one of both"},
+        Case{"AThresholdThatNothingExceeds", kVideo + "file = \"a.avi\"\nthreshold = 255\n",
+             "FILE:14: camera[0].threshold: is 255; from 1 to 254 is allowed"},
+        Case{"MoreDotsThanAnObservationHolds", kVideo + "file = \"a.avi\"\nmax_dots = 17\n",
+             "FILE:14: camera[0].max_dots: is 17; from 1 to 16 is allowed"},
+        Case{"AreasThatNoBlobHas", kVideo + "file = \"a.avi\"\nmax_area_px = 2\nmin_area_px = 4\n",
+             "FILE:15: camera[0].min_area_px: leaves no dots: it is more than max_area_px, which "
+             "is 2"},
+        Case{"ANearlyKnownFieldOfAVideoCamera", kVideo + "file = \"a.avi\"\ntreshold = 9\n",
+             "FILE:14: camera[0].treshold: is not known; did you mean \"threshold\"?"},
+        Case{"AVideoCamerasFieldOfAWiimote",
+             "[[camera]]\nname = \"a\"\nsource = \"wiimote\"\nexposure = 3\n"
+             "position_m = [0, 1, 2]\npitch_deg = 90\n",
+             "FILE:11: camera[0].exposure: is not known; known here: name, source, address, "
+             "focal_px, focal_aspect, centre_px, distortion, position_m, look_at_m, heading_deg, "
+             "pitch_deg, roll_deg"}),
     [](const auto& wrong) { return wrong.param.name; });
 
 TEST(SiteErrors, NameEveryFieldThatIsMissing) {

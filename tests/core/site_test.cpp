@@ -90,15 +90,15 @@ TEST(Site, FindsTheModelBesideItsFile) {
 
 TEST(Site, TakesEveryFieldOfACamera) {
   const Site site = site_of(kGrid +
-                            "[[camera]]\nname = \"ceiling\"\nsource = \"video\"\n"
-                            "address = \"/dev/video2\"\nposition_m = [0, 3, 2]\n"
+                            "[[camera]]\nname = \"ceiling\"\nsource = \"wiimote\"\n"
+                            "address = \"00:1F:32:00:00:01\"\nposition_m = [0, 3, 2]\n"
                             "heading_deg = -37\npitch_deg = 60\nroll_deg = 5\nfocal_px = 800\n"
                             "focal_aspect = 1.1\ncentre_px = [320, 240]\n"
                             "distortion = [0.1, -0.2, 0.01, 0.02, 0.3]\n");
   ASSERT_EQ(site.cameras.size(), 1u);
   const CameraConfig& camera = site.cameras[0];
-  EXPECT_EQ(name_of(camera.source), "video");
-  EXPECT_EQ(camera.address, "/dev/video2");
+  EXPECT_EQ(name_of(camera.source), "wiimote");
+  EXPECT_EQ(camera.address, "00:1F:32:00:00:01");
   EXPECT_THAT(
       camera.room_from_camera,
       IsNearRigid(camera_from_thesis_angles({0, 3, 2}, radians(-37), radians(60), radians(5)), 0));
@@ -106,6 +106,51 @@ TEST(Site, TakesEveryFieldOfACamera) {
   EXPECT_DOUBLE_EQ(camera.intrinsics.fy_px, 880);
   EXPECT_DOUBLE_EQ(camera.intrinsics.cx_px, 320);
   EXPECT_EQ(camera.intrinsics.distortion, (std::array{0.1, -0.2, 0.01, 0.02, 0.3}));
+}
+
+TEST(Site, TakesEveryFieldOfAVideoCamera) {
+  const Site site = site_of(kGrid +
+                            "[[camera]]\nname = \"a\"\nsource = \"video\"\n"
+                            "device = \"/dev/video2\"\nwidth_px = 1280\nheight_px = 720\n"
+                            "rate_hz = 120\nexposure = 20\ngain = 5\nthreshold = 90\n"
+                            "min_area_px = 2\nmax_area_px = 400\nmax_dots = 8\n"
+                            "position_m = [0, 1, 4]\npitch_deg = 90\n");
+  const VideoConfig& video = site.cameras[0].video;
+  EXPECT_EQ(name_of(site.cameras[0].source), "video");
+  EXPECT_EQ(video.device, "/dev/video2");
+  EXPECT_EQ(video.file, "");
+  EXPECT_EQ(video.width_px, 1280);
+  EXPECT_EQ(video.height_px, 720);
+  EXPECT_EQ(video.rate_hz, 120);
+  EXPECT_EQ(video.exposure, 20);
+  EXPECT_EQ(video.gain, 5);
+  EXPECT_EQ(video.blobs.threshold, 90);
+  EXPECT_EQ(video.blobs.min_area_px, 2);
+  EXPECT_EQ(video.blobs.max_area_px, 400);
+  EXPECT_EQ(video.blobs.max_dots, 8);
+}
+
+TEST(Site, TakesAVideoFileBesideItselfAndThePicturesMiddleForItsCentre) {
+  const TextFile file(kGrid +
+                      "[[camera]]\nname = \"a\"\nsource = \"video\"\nfile = \"walk.avi\"\n"
+                      "position_m = [0, 1, 4]\npitch_deg = 90\n");
+  const CameraConfig camera = read_site(file.path()).cameras[0];
+  const std::filesystem::path expected =
+      std::filesystem::path(file.path()).parent_path() / "walk.avi";
+  EXPECT_EQ(camera.video.file, expected.string());
+  EXPECT_EQ(camera.video.rate_hz, std::nullopt);
+  EXPECT_EQ(camera.video.exposure, std::nullopt);
+  EXPECT_DOUBLE_EQ(camera.intrinsics.cx_px, 319.5);
+  EXPECT_DOUBLE_EQ(camera.intrinsics.cy_px, 239.5);
+}
+
+TEST(Site, LetsAnEmulatedCameraStandInForAnyOther) {
+  const Site site = site_of(kGrid +
+                            "[[camera]]\nname = \"a\"\nsource = \"emulated\"\n"
+                            "address = \"00:1F:32:00:00:01\"\ndevice = \"/dev/video0\"\n"
+                            "threshold = 90\nposition_m = [0, 1, 4]\npitch_deg = 90\n");
+  EXPECT_EQ(site.cameras[0].source, CameraSource::emulated);
+  EXPECT_DOUBLE_EQ(site.cameras[0].intrinsics.cx_px, 512);
 }
 
 TEST(Site, TakesACameraWithOneAngleOnlyAsHorizontal) {
