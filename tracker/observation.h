@@ -14,7 +14,7 @@ namespace vindu {
 struct Dot {
   double x_px = 0;
   double y_px = 0;
-  int size = 0;  ///< as the device says, 0..15 from a Wiimote; no unit
+  int size = 0;  ///< 0..15 as a Wiimote says, no unit; a video camera's blob: its pixels
 
   bool operator==(const Dot&) const = default;
 };
