@@ -14,8 +14,8 @@
 #include "renderer/surface.h"
 #include "simulator/emulated_room.h"
 #include "tracker/eye_ease.h"
+#include "tracker/observation_source.h"
 #include "tracker/tracker.h"
-#include "tracker/wiimote/reader.h"
 
 namespace vindu::app {
 
@@ -34,8 +34,7 @@ class EyeSource {
   virtual EyeNow at(Time now) = 0;
 };
 
-/// The cameras that the site names, read by the driver; now and for machines without cameras:
-/// emulated ones.
+/// The cameras that the site names: emulated ones, video cameras and video files, in any mixture.
 class TrackedEye final : public EyeSource {
  public:
   /// The room and the clock must outlive this. Throws Error for cameras that cannot be opened.
@@ -44,13 +43,12 @@ class TrackedEye final : public EyeSource {
 
   EyeNow at(Time now) override;
   const Tracker& tracker() const { return tracker_; }
-  const std::vector<WiimoteReader>& readers() const { return readers_; }
 
  private:
   Clock& clock_;
   Tracker tracker_;
   EyeEase ease_;
-  std::vector<WiimoteReader> readers_;
+  std::vector<std::unique_ptr<ObservationSource>> cameras_;
 };
 
 /// The path begins with the first frame.

@@ -60,6 +60,22 @@ struct Run {
   std::unique_ptr<WallRenderer> wall;
 };
 
+/// The simulated person is what the cameras see: nothing else moves the eye.
+bool all_emulated(const Site& site) {
+  return std::ranges::all_of(site.cameras, [](const CameraConfig& camera) {
+    return camera.source == CameraSource::emulated;
+  });
+}
+
+/// A camera's times are the real clock's.
+void check_clock(const SimulateOptions& options, const Site& site) {
+  if (options.clock != "manual" || options.mode != "track") return;
+  for (const CameraConfig& camera : site.cameras)
+    if (!camera.video.device.empty() && camera.source == CameraSource::video)
+      throw Error({"a real camera cannot follow --clock manual", "camera " + camera.name,
+                   "leave --clock out, or name a file instead of the device"});
+}
+
 EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& clock) {
   EmulatedRoomOptions room;
   room.person.seed = room.wiimote.seed = options.seed;
@@ -124,6 +140,7 @@ Run assemble(const SimulateOptions& options) {
   if (run.site.cameras.empty() && options.mode == "track")
     throw Error({"names no [[camera]]", options.wall_file,
                  "add cameras with source = \"emulated\", or use --mode loop"});
+  check_clock(options, run.site);
   run.loaded = load_scene(options.model, options.place, run.site);
   const bool manual = options.clock == "manual";
   if (manual)
@@ -159,7 +176,8 @@ void present_in(const WallRenderer& wall, const Picture& picture, int x, int y, 
 /// Where the room's picture shows the head: the person's own, or on a path one that faces the wall
 /// with its eye there.
 Rigid3 head_in_picture(const Run& run, const FrameState& state) {
-  if (run.tracker) return run.room->person().room_from_head(state.photon_time);
+  if (run.tracker && all_emulated(run.site))
+    return run.room->person().room_from_head(state.photon_time);
   const Rigid3& room_from_wall = run.site.wall.room_from_wall;
   return {Quat::Identity(), room_from_wall * state.eye_in_wall - run.site.head.eye_in_head};
 }
@@ -259,9 +277,10 @@ void save_sheet(Run& run, const LoopResult& result) {
   for (const auto& [title, frame] : moments)
     pictures.push_back(picture_moment(run, wall, room, title, *frame));
   make_folder(run.options.out);
-  const std::string source = run.options.mode == "loop"
-                                 ? "The eye follows a path"
-                                 : "Two emulated Wiimotes behind the person track the helmet";
+  const std::string source = run.options.mode == "loop" ? "The eye follows a path"
+                             : all_emulated(run.site)
+                                 ? "Two emulated Wiimotes behind the person track the helmet"
+                                 : "The wall file's cameras track the head";
   const Image sheet =
       contact_sheet({"Vindu: the wall is a window",
                      source + "; each tile draws what that eye would see through it."},
@@ -279,13 +298,14 @@ int simulate(const SimulateOptions& options) {
   Run run = assemble(options);
   const LoopResult result = play(run);
   save_sheet(run, result);
-  const RunReport report{.loop = result,
-                         .truth = run.tracker ? &run.room->person() : nullptr,
-                         .tracker = run.tracker,
-                         .scale = static_cast<double>(run.wall->layout().tiles.front().size.width) /
-                                  run.site.wall.tiles.front().width_px,
-                         .wall_px = run.wall->layout().size,
-                         .gl = gl_description()};
+  const RunReport report{
+      .loop = result,
+      .truth = run.tracker && all_emulated(run.site) ? &run.room->person() : nullptr,
+      .tracker = run.tracker,
+      .scale = static_cast<double>(run.wall->layout().tiles.front().size.width) /
+               run.site.wall.tiles.front().width_px,
+      .wall_px = run.wall->layout().size,
+      .gl = gl_description()};
   std::fputs((options.json ? json_of(report) : table_of(report)).c_str(), stdout);
   return 0;
 }
