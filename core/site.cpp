@@ -242,10 +242,7 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
   }
 }
 
-}  // namespace
-
-Site read_site(const std::string& file) {
-  const toml::table parsed = internal::parse_toml_file(file);
+Site site_of(const toml::table& parsed, const std::string& file) {
   Problems problems(file);
   TomlTable root(parsed, "", problems);
   Site site;
@@ -262,6 +259,14 @@ Site read_site(const std::string& file) {
   for (CameraConfig& camera : site.cameras)
     if (!camera.video.file.empty()) camera.video.file = (folder / camera.video.file).string();
   return site;
+}
+
+}  // namespace
+
+Site read_site(const std::string& file) { return site_of(internal::parse_toml_file(file), file); }
+
+Site parse_site(const std::string& text, const std::string& file) {
+  return site_of(internal::parse_toml_text(text, file), file);
 }
 
 std::string name_of(CameraSource source) {

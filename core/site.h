@@ -87,6 +87,9 @@ struct Site {
 
 /// Throws Error with one line for each thing that is wrong.
 Site read_site(const std::string& file);
+/// The same of a wall file's text, as a recording holds it; `file` is its name in messages, and
+/// what its paths are relative to.
+Site parse_site(const std::string& text, const std::string& file);
 
 /// `source` for people: "emulated", "wiimote", "video".
 std::string name_of(CameraSource source);

@@ -218,6 +218,17 @@ void TomlTable::finish() {
   }
 }
 
+namespace {
+
+[[noreturn]] void refuse(const toml::parse_error& wrong, const std::string& file) {
+  const auto line = wrong.source().begin.line;
+  if (line == 0) throw Error({std::string(wrong.description()), file, "make the file readable"});
+  throw Error({"is not valid TOML: " + std::string(wrong.description()),
+               file + ":" + std::to_string(line), "correct that line"});
+}
+
+}  // namespace
+
 toml::table parse_toml_file(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
@@ -225,10 +236,15 @@ toml::table parse_toml_file(const std::string& file) {
   try {
     return toml::parse_file(file);
   } catch (const toml::parse_error& wrong) {
-    const auto line = wrong.source().begin.line;
-    if (line == 0) throw Error({std::string(wrong.description()), file, "make the file readable"});
-    throw Error({"is not valid TOML: " + std::string(wrong.description()),
-                 file + ":" + std::to_string(line), "correct that line"});
+    refuse(wrong, file);
+  }
+}
+
+toml::table parse_toml_text(const std::string& text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& wrong) {
+    refuse(wrong, file);
   }
 }
 

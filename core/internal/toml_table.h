@@ -75,5 +75,7 @@ class TomlTable {
 
 /// Throws Error with file and line where the file cannot be read or is not TOML.
 toml::table parse_toml_file(const std::string& file);
+/// The same of a text that came from `file`.
+toml::table parse_toml_text(const std::string& text, const std::string& file);
 
 }  // namespace vindu::internal

@@ -24,6 +24,7 @@ LAYERS = {
 # Library -> (how its headers begin, where they may show).
 LIBRARIES = {
     "OpenCV": (r"opencv2/", r"tracker/.*"),
+    "zlib": (r"zlib\.h", r"tracker/.*"),
     "GLFW": (r"GLFW/", r"renderer/.*"),
     "EGL": (r"EGL/", r"renderer/.*"),
     "epoxy": (r"epoxy/|GL/|GLES\d?/", r"renderer/.*"),
