@@ -15,5 +15,7 @@ void add_render(CLI::App& parent, Action& chosen);
 void add_simulate(CLI::App& parent, Action& chosen);
 void add_check(CLI::App& parent, Action& chosen);
 void add_wiimote(CLI::App& parent, Action& chosen);
+void add_record(CLI::App& parent, Action& chosen);
+void add_replay(CLI::App& parent, Action& chosen);
 
 }  // namespace vindu::app

@@ -46,6 +46,8 @@ int run(int argc, char** argv) {
   vindu::app::add_render(app, chosen);
   vindu::app::add_check(app, chosen);
   vindu::app::add_wiimote(app, chosen);
+  vindu::app::add_record(app, chosen);
+  vindu::app::add_replay(app, chosen);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/clock.h"
@@ -43,5 +44,9 @@ constexpr std::size_t kMaxRecordedReport = 4096;
 
 /// The files of one recording: "a.vrec", "a.1.vrec", "a.2.vrec"; part 0 is the first.
 std::string recording_part(const std::string& file, int part);
+
+/// A report's line in the text form, without its end: "left 1234567 33001a". `device` is a name
+/// without blanks, or the index.
+std::string text_line(std::string_view device, const RecordedReport& report);
 
 }  // namespace vindu

@@ -224,10 +224,10 @@ std::optional<Record> decode_body(ByteSpan body) {
   return from.good() ? std::optional<Record>(std::monostate()) : std::nullopt;
 }
 
-std::string text_line(const RecordedReport& report) {
+std::string text_line(std::string_view device, const RecordedReport& report) {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string line =
-      std::to_string(report.device) + " " + std::to_string(nanoseconds(report.arrival)) + " ";
+  std::string line(device);
+  line += " " + std::to_string(nanoseconds(report.arrival)) + " ";
   for (const std::uint8_t byte : report.bytes) {
     line += kDigits[byte / 16];
     line += kDigits[byte % 16];

@@ -47,9 +47,6 @@ std::optional<Record> decode_body(ByteSpan body);
 
 std::uint32_t read_u32(ByteSpan bytes);
 
-/// A report's line in the text form, without its end: "0 1234567 33001a".
-std::string text_line(const RecordedReport& report);
-
 struct TextLine {
   std::string device;  ///< a number, or a name
   Time arrival{};

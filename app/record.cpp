@@ -1,0 +1,223 @@
+// vindu record: writes every report of the wall file's cameras to a recording, until Ctrl-C; one
+// reader thread a camera.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <future>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/eye_source.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "renderer/resources.h"
+#include "tracker/recording_devices.h"
+
+namespace vindu::app {
+namespace {
+
+struct RecordCommand {
+  std::string wall_file;
+  std::string out;
+  std::optional<double> seconds;
+  double rotate_mb = 100;
+  std::uint64_t seed = 52;
+};
+
+/// SIGINT and SIGTERM wait to be asked for while this lives, in threads that start after it too.
+class StopSignals {
+ public:
+  StopSignals() {
+    sigemptyset(&signals_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
+    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  }
+  ~StopSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  /// Whether one came within this time, which is less than a second.
+  bool came_within(Duration time) const {
+    const timespec limit{0, static_cast<long>(time.count())};
+    return sigtimedwait(&signals_, nullptr, &limit) > 0;
+  }
+
+ private:
+  sigset_t signals_{};
+  sigset_t before_{};
+};
+
+/// One reader thread for each camera; they end with this.
+class CameraThreads {
+ public:
+  CameraThreads() = default;
+  ~CameraThreads() { stop_.request_stop(); }
+  CameraThreads(const CameraThreads&) = delete;
+  CameraThreads& operator=(const CameraThreads&) = delete;
+
+  void start(WiimoteReader reader, const Clock& clock) {
+    threads_.push_back(std::async(
+        std::launch::async,
+        [stop = stop_.get_token(), &clock](WiimoteReader own) {
+          while (!stop.stop_requested() && !own.gone())
+            while (own.next(clock.now() + std::chrono::milliseconds(50)))
+              if (stop.stop_requested()) return;
+        },
+        std::move(reader)));
+  }
+  bool all_gone() const {
+    return std::ranges::all_of(threads_, [](const std::future<void>& thread) {
+      return thread.wait_for(Duration{}) == std::future_status::ready;
+    });
+  }
+  /// Throws what a thread threw.
+  void join() {
+    stop_.request_stop();
+    for (std::future<void>& thread : threads_) thread.get();
+  }
+
+ private:
+  std::stop_source stop_;
+  std::vector<std::future<void>> threads_;
+};
+
+std::string text_of_file(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+RecordingInfo describe(const std::string& wall_file, const Site& site, const Clock& clock) {
+  RecordingInfo info{
+      .program = "vindu " VINDU_VERSION,
+      .started_utc_ns = Duration(std::chrono::system_clock::now().time_since_epoch()).count(),
+      .started = clock.now(),
+      .wall_file = wall_file,
+      .wall_text = text_of_file(wall_file),
+      .devices = {}};
+  for (const CameraConfig& camera : site.cameras)
+    info.devices.push_back({static_cast<int>(info.devices.size()), camera.name});
+  return info;
+}
+
+std::string default_name() {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("recording-{:%Y%m%d-%H%M%S}.vrec", fmt::gmtime(now));
+}
+
+/// One line that is written over, on a terminal only.
+class Progress {
+ public:
+  explicit Progress(const RecordingInfo& info) : info_(info), before_(info.devices.size()) {}
+  ~Progress() {
+    if (shown_) std::fputs("\n", stderr);
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(const RecordingStatus& status, Time now) {
+    if (!terminal_ || (shown_ && now - *shown_ < std::chrono::seconds(1))) return;
+    std::string line = "\r\x1b[K";
+    for (std::size_t i = 0; i < info_.devices.size(); ++i) {
+      const double span_s = shown_ ? seconds(now - *shown_) : 1;
+      line += fmt::format("{}: {} ({:.0f}/s)   ", info_.devices[i].name, status.reports[i],
+                          static_cast<double>(status.reports[i] - before_[i]) / span_s);
+    }
+    if (status.dropped) line += fmt::format("dropped: {}   ", status.dropped);
+    std::fputs((line + fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(status.bytes))).c_str(),
+               stderr);
+    before_ = status.reports;
+    shown_ = now;
+  }
+
+ private:
+  const bool terminal_ = isatty(STDERR_FILENO) == 1;
+  const RecordingInfo& info_;
+  std::vector<std::uint64_t> before_;
+  std::optional<Time> shown_;
+};
+
+/// Until the time is over, a signal comes, no camera is left, or nothing can be written.
+void wait_for_end(const RecordCommand& command, const StopSignals& signals,
+                  const CameraThreads& cameras, const RecordingWriter& writer,
+                  const RecordingInfo& info) {
+  const MonotonicClock clock;
+  const Time end = command.seconds ? clock.now() + from_seconds(*command.seconds) : Time::max();
+  Progress progress(info);
+  while (clock.now() < end && writer.status().failure.empty()) {
+    progress.show(writer.status(), clock.now());
+    const Duration rest = end - clock.now();
+    if (signals.came_within(std::clamp<Duration>(rest, {}, std::chrono::milliseconds(100)))) return;
+    if (cameras.all_gone()) return log_warning("record", "no camera is left");
+  }
+}
+
+int record(const RecordCommand& command) {
+  const std::string wall_file =
+      command.wall_file.empty() ? find_asset("walls/tromso.toml") : command.wall_file;
+  const Site site = read_site(wall_file);
+  if (site.cameras.empty())
+    throw Error({"names no [[camera]]", wall_file, "add the cameras that are to be recorded"});
+  const StopSignals signals;
+  MonotonicClock clock;
+  EmulatedRoomOptions room_options;
+  room_options.person.seed = room_options.wiimote.seed = command.seed;
+  room_options.person.start = clock.now();
+  const EmulatedRoom room(site, clock, room_options);
+  std::vector<std::unique_ptr<HidDevice>> devices;  // before the file: a failure leaves none
+  for (std::size_t i = 0; i < site.cameras.size(); ++i)
+    devices.push_back(open_camera(site.cameras[i], i, room));
+  const RecordingInfo info = describe(wall_file, site, clock);
+  const std::string file = command.out.empty() ? default_name() : command.out;
+  RecordingWriter writer(file, info,
+                         {.rotate_bytes = static_cast<std::uint64_t>(1e6 * command.rotate_mb)});
+  const Time begin = clock.now();
+  CameraThreads cameras;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const int index = static_cast<int>(i);
+    auto device = std::make_unique<RecordingHidDevice>(std::move(devices[i]), writer, index);
+    cameras.start({std::move(device), index, site.cameras[i].name}, clock);
+  }
+  wait_for_end(command, signals, cameras, writer, info);
+  cameras.join();
+  writer.flush();
+  const RecordingStatus status = writer.status();
+  if (!status.failure.empty()) throw Error(status.failure);
+  std::uint64_t reports = 0;
+  for (const std::uint64_t of_device : status.reports) reports += of_device;
+  fmt::print("{}: {} reports of {} cameras in {:.1f} s, {} dropped, {} file(s)\n", file, reports,
+             site.cameras.size(), seconds(clock.now() - begin), status.dropped, status.files);
+  return 0;
+}
+
+}  // namespace
+
+void add_record(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<RecordCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "record", "Write every report of the cameras, with its arrival time, to a file");
+  app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
+      ->type_name("FILE");
+  app->add_option("--seconds", command->seconds, "Length (default: until Ctrl-C)")
+      ->check(CLI::Range(0.05, 1e8));
+  app->add_option("--out", command->out, "File (default: recording-DATE-TIME.vrec)")
+      ->type_name("FILE");
+  app->add_option("--rotate-mb", command->rotate_mb,
+                  "Go on in FILE.1, FILE.2 ... when a file has grown to this; 0: never "
+                  "(default: 100)")
+      ->check(CLI::Range(0.0, 1e6));
+  app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu record --wall wall.toml --out walk.vrec\n"
+      "  vindu record --seconds 10\n"
+      "  vindu replay walk.vrec\n");
+  app->callback([command, &chosen] { chosen = [command] { return record(*command); }; });
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,262 @@
+// vindu replay: plays a recording through driver and tracker, as fast as it can or in real time,
+// and says what is in it: figures, a line of JSON for each report or pose, or its text form.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/replay_summary.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "tracker/recording_devices.h"
+#include "tracker/tracker.h"
+#include "tracker/wiimote/reader.h"
+#include "tracker/wiimote/report.h"
+
+namespace vindu::app {
+namespace {
+
+/// After this long without a report no pose can change any more; ticks are left out.
+constexpr Duration kQuiet = kPoseHeldFor + std::chrono::seconds(1);
+
+struct ReplayCommand {
+  std::string file;
+  std::string wall_file;
+  std::string speed = "max";
+  bool track = false;
+  bool json = false;
+  bool text = false;
+  bool skip_damage = false;
+
+  DamagePolicy damage() const { return skip_damage ? DamagePolicy::skip : DamagePolicy::refuse; }
+};
+
+/// A clock, and how far recorded times are from its own.
+struct Pace {
+  std::unique_ptr<Clock> clock;
+  Duration shift{};
+};
+
+Pace pace_of(const ReplayCommand& command, Time first) {
+  if (command.speed == "max") return {std::make_unique<ManualClock>(), {}};
+  auto clock = std::make_unique<MonotonicClock>();
+  const Duration shift = clock->now() - first;
+  return {std::move(clock), shift};
+}
+
+void put_line(const std::string& line) { std::fputs((line + "\n").c_str(), stdout); }
+
+std::int64_t nanoseconds(Time time) { return Duration(time.time_since_epoch()).count(); }
+
+std::string json_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(letter) < 0x20)
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(letter));
+    else
+      quoted += letter;
+  }
+  return quoted + "\"";
+}
+
+std::string json_vec(const Vec3& v) { return fmt::format("[{},{},{}]", v.x(), v.y(), v.z()); }
+
+std::string json_of(const RecordedReport& report, const std::string& device) {
+  std::string line =
+      fmt::format(R"({{"device":{},"t_ns":{},"report":"0x{:02x}")", json_text(device),
+                  nanoseconds(report.arrival), report.bytes.front());
+  const ParsedReport parsed = parse_report(report.bytes);
+  if (!parsed.report) return line + fmt::format(R"(,"problem":"{}"}})", name_of(parsed.problem));
+  const auto [ax, ay, az] = parsed.report->acceleration_raw;
+  line += fmt::format(R"(,"buttons":{},"acceleration_raw":[{},{},{}],"dots":[)",
+                      parsed.report->buttons, ax, ay, az);
+  for (const Dot& dot : parsed.report->dots)
+    line += fmt::format(R"({}{{"x_px":{},"y_px":{},"size":{}}})", line.back() == '[' ? "" : ",",
+                        dot.x_px, dot.y_px, dot.size);
+  return line + "]}";
+}
+
+/// Root mean square over the axes of the position's standard deviation; null where not known.
+std::string sigma_of(const PoseSample& pose) {
+  const double variance_m2 = pose.covariance.topLeftCorner<3, 3>().trace() / 3;
+  return variance_m2 > 0 ? fmt::format("{}", std::sqrt(variance_m2)) : "null";
+}
+
+std::string json_of(const PoseSample& pose, const Vec3& eye_in_wall, Duration shift) {
+  const Quat& q = pose.room_from_head.rotation;
+  return fmt::format(
+      R"({{"t_ns":{},"object":{},"level":"{}","eye_in_wall_m":{},)"
+      R"("room_from_head":{{"translation_m":{},"quaternion_xyzw":[{},{},{},{}]}},"sigma_m":{}}})",
+      nanoseconds(pose.capture_time - shift), pose.object, name_of(pose.level),
+      json_vec(eye_in_wall), json_vec(pose.room_from_head.translation), q.x(), q.y(), q.z(), q.w(),
+      sigma_of(pose));
+}
+
+Site site_for(const ReplayCommand& command, const RecordingInfo& info) {
+  if (!command.wall_file.empty()) return read_site(command.wall_file);
+  if (info.wall_text.empty())
+    throw Error({"holds no wall file", command.file, "name the one to track with: --wall FILE"});
+  return parse_site(info.wall_text, info.wall_file);
+}
+
+/// By name; a device without one is its index.
+std::optional<std::size_t> camera_of(const RecordedDevice& device, const Site& site) {
+  if (device.name.empty())
+    return static_cast<std::size_t>(device.index) < site.cameras.size()
+               ? std::optional<std::size_t>(device.index)
+               : std::nullopt;
+  const auto camera = std::ranges::find(site.cameras, device.name, &CameraConfig::name);
+  if (camera == site.cameras.end()) return std::nullopt;
+  return static_cast<std::size_t>(camera - site.cameras.begin());
+}
+
+std::vector<WiimoteReader> open_readers(const ReplayCommand& command,
+                                        const RecordingSummary& summary, const Site& site,
+                                        const Pace& pace) {
+  std::vector<WiimoteReader> readers;
+  for (const RecordedDevice& device : summary.info.devices) {
+    const std::string& name = summary.devices.at(device.index).name;
+    const auto camera = camera_of(device, site);
+    if (!camera) {
+      log_warning(name, "is no camera of the wall file and is left out");
+      continue;
+    }
+    readers.emplace_back(
+        std::make_unique<ReplayHidDevice>(command.file, device.index, *pace.clock,
+                                          ReplayOptions{pace.shift, command.damage()}),
+        static_cast<int>(*camera), name);
+  }
+  if (readers.empty())
+    throw Error({"none of its devices is a camera of the wall file", command.file,
+                 "give the wall file that it was recorded with: --wall FILE"});
+  return readers;
+}
+
+/// Ticks stand at multiples of the wall's period on the recorded clock, so that a run does not
+/// depend on which report was the first.
+class Ticks {
+ public:
+  Ticks(double rate_hz, Time first) : rate_hz_(rate_hz) { advance_to(first); }
+  Time now() const { return Time{from_seconds(static_cast<double>(number_) / rate_hz_)}; }
+  void advance() { ++number_; }
+  /// To the first tick that is not before `time`, never back.
+  void advance_to(Time time) {
+    const double least = seconds(time.time_since_epoch()) * rate_hz_;
+    number_ = std::max(number_, static_cast<std::int64_t>(least) - 1);
+    while (now() < time) ++number_;
+  }
+
+ private:
+  double rate_hz_;
+  std::int64_t number_ = 0;
+};
+
+/// Knows when the next report comes, so that long silences need not be ticked through.
+class Lookahead {
+ public:
+  Lookahead(const std::string& file, DamagePolicy damage)
+      : reader_(file, damage), next_(reader_.next()) {}
+
+  /// Where ticks may go on at once: the next report's arrival after a long silence, else empty.
+  std::optional<Time> silent_until(Time now) {
+    for (; next_ && next_->arrival <= now; next_ = reader_.next())
+      last_ = std::max(last_, next_->arrival);
+    if (!next_ || now - last_ < kQuiet) return std::nullopt;
+    return next_->arrival;
+  }
+
+ private:
+  RecordingReader reader_;
+  std::optional<RecordedReport> next_;
+  Time last_{};
+};
+
+int track(const ReplayCommand& command, const RecordingSummary& summary) {
+  const Site site = site_for(command, summary.info);
+  const Pace pace = pace_of(command, summary.first);
+  std::vector<WiimoteReader> readers = open_readers(command, summary, site, pace);
+  Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
+  Lookahead ahead(command.file, command.damage());
+  std::optional<PoseSample> said;
+  for (Ticks ticks(site.rate_hz, summary.first);; ticks.advance()) {
+    const Time now = ticks.now() + pace.shift;
+    for (WiimoteReader& reader : readers)
+      while (const auto observation = reader.next(now)) tracker.absorb(*observation);
+    pace.clock->sleep_until(now);
+    const std::optional<PoseSample> pose = tracker.track(now);
+    const bool news =
+        pose && (!said || pose->capture_time != said->capture_time || pose->level != said->level);
+    if (news) put_line(json_of(*pose, tracker.eye_in_wall(*pose), pace.shift));
+    said = pose;
+    if (ticks.now() >= summary.last) return 0;
+    if (const auto next = ahead.silent_until(ticks.now())) ticks.advance_to(*next);
+  }
+}
+
+int print_reports(const ReplayCommand& command, const RecordingSummary& summary) {
+  const Pace pace = pace_of(command, summary.first);
+  RecordingReader reader(command.file, command.damage());
+  while (const auto report = reader.next()) {
+    pace.clock->sleep_until(report->arrival + pace.shift);
+    const std::string& device = summary.devices.at(report->device).name;
+    put_line(command.text ? text_line(device, *report) : json_of(*report, device));
+  }
+  return 0;
+}
+
+void print_comments(const RecordingSummary& summary) {
+  std::istringstream table(table_of(summary));
+  for (std::string line; std::getline(table, line);) put_line("# " + line);
+  std::istringstream wall(summary.info.wall_text);
+  for (std::string line; std::getline(wall, line);) put_line("# wall: " + line);
+}
+
+int replay(const ReplayCommand& command) {
+  if (command.speed == "real") std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  const RecordingSummary summary = summarize(command.file, command.damage());
+  for (const std::string& remark : summary.problems.remarks) log_warning("replay", remark);
+  if (command.track) return track(command, summary);
+  if (command.text) print_comments(summary);
+  if (command.text || command.json) return print_reports(command, summary);
+  std::fputs(table_of(summary).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ReplayCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "replay", "Play a recording of the cameras' reports through driver and tracker");
+  app->add_option(
+         "FILE", command->file,
+         "What vindu record wrote, or text: a line \"device arrival_ns hex-bytes\" a report")
+      ->required();
+  auto* track =
+      app->add_flag("--track", command->track, "Track, and print the poses as lines of JSON");
+  auto* json = app->add_flag("--json", command->json, "A line of JSON for each report");
+  app->add_flag("--text", command->text, "The recording in its text form")
+      ->excludes(track)
+      ->excludes(json);
+  app->add_option("--speed", command->speed,
+                  "real: as it was recorded; max: as fast as it can (default)")
+      ->check(CLI::IsMember({"real", "max"}));
+  app->add_option("--wall", command->wall_file,
+                  "Wall file to track with (default: the one in the recording)")
+      ->type_name("FILE");
+  app->add_flag("--skip-damage", command->skip_damage, "Read around what is damaged");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu replay walk.vrec\n"
+      "  vindu replay walk.vrec --track > poses.jsonl\n"
+      "  vindu replay walk.vrec --text > walk.txt\n"
+      "  vindu replay walk.txt --track --wall wall.toml --speed real\n");
+  app->callback([command, &chosen] { chosen = [command] { return replay(*command); }; });
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,137 @@
+#include "app/replay_summary.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "tracker/recording_devices.h"
+#include "tracker/wiimote/reader.h"
+
+namespace vindu::app {
+namespace {
+
+void count_gap(DeviceSummary& device, Duration gap) {
+  const auto edge = std::ranges::find_if(
+      kGapEdges_ms, [gap](int edge_ms) { return gap < std::chrono::milliseconds(edge_ms); });
+  ++device.gaps[static_cast<std::size_t>(edge - kGapEdges_ms.begin())];
+}
+
+void count(DeviceSummary& device, const RecordedReport& report) {
+  if (device.reports++ > 0) {
+    if (report.arrival < device.last) ++device.out_of_order;
+    count_gap(device, std::max(report.arrival - device.last, Duration{}));
+  }
+  ++device.by_id[report.bytes.front()];
+  device.first = std::min(device.first, report.arrival);
+  device.last = std::max(device.last, report.arrival);
+}
+
+std::uint64_t observations_of(const std::string& file, int index, const DeviceSummary& device,
+                              DamagePolicy damage) {
+  ManualClock clock;
+  WiimoteReader reader(
+      std::make_unique<ReplayHidDevice>(file, index, clock, ReplayOptions{.damage = damage}), index,
+      device.name);
+  std::uint64_t observations = 0;
+  while (reader.next(device.last)) ++observations;
+  return observations;
+}
+
+/// Names stand in the text form only if all of them can be read again.
+bool all_names_usable(const RecordingInfo& info) {
+  return std::ranges::all_of(info.devices, [](const RecordedDevice& device) {
+    const std::string& name = device.name;
+    return !name.empty() && name.find_first_of(" \t\r\n") == std::string::npos &&
+           name.front() != '#' && name.find_first_not_of("0123456789") != std::string::npos;
+  });
+}
+
+void name_devices(RecordingSummary& summary) {
+  const bool names = all_names_usable(summary.info);
+  for (const RecordedDevice& device : summary.info.devices)
+    summary.devices[device.index].name = names ? device.name : std::to_string(device.index);
+}
+
+std::string origin_of(const RecordingInfo& info) {
+  if (info.program.empty()) return "a text";
+  const auto date = std::chrono::system_clock::time_point(
+      std::chrono::duration_cast<std::chrono::system_clock::duration>(
+          Duration(info.started_utc_ns)));
+  return fmt::format("{}, {:%Y-%m-%d %H:%M:%S} UTC, wall {}", info.program,
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(date)), info.wall_file);
+}
+
+std::string device_row(const DeviceSummary& device) {
+  const double length_s = device.reports > 1 ? seconds(device.last - device.first) : 0;
+  const double rate_hz = length_s > 0 ? static_cast<double>(device.reports - 1) / length_s : 0;
+  std::string ids;
+  for (const auto& [id, reports] : device.by_id) ids += fmt::format("  0x{:02x}: {}", id, reports);
+  return fmt::format("  {:<12}{:>10}{:>12.3f}{:>11.2f}{:>14}{}\n", device.name, device.reports,
+                     length_s, rate_hz, device.observations, ids);
+}
+
+std::string gaps_table(const RecordingSummary& summary) {
+  std::string text = "\n  gaps, ms    ";
+  int low_ms = 0;
+  for (const int high_ms : kGapEdges_ms) {
+    text += fmt::format("{:>9}", fmt::format("{}-{}", low_ms, high_ms));
+    low_ms = high_ms;
+  }
+  text += fmt::format("{:>9}\n", fmt::format("{}-", low_ms));
+  for (const auto& [index, device] : summary.devices) {
+    text += fmt::format("  {:<12}", device.name);
+    for (const std::uint64_t gaps : device.gaps) text += fmt::format("{:>9}", gaps);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string problems_text(const RecordingSummary& summary) {
+  std::string text;
+  const auto say = [&text](std::uint64_t count, const std::string& what) {
+    if (count > 0) text += fmt::format("  {} {}\n", count, what);
+  };
+  say(summary.problems.torn_bytes, "bytes lost at the end");
+  say(summary.problems.damaged_bytes, "damaged bytes skipped");
+  say(summary.problems.dropped, "reports dropped while recording: the disk was too slow or full");
+  for (const auto& [index, device] : summary.devices) {
+    say(device.out_of_order, "reports out of order, " + device.name);
+    if (device.reports > 0 && device.observations == 0)
+      text += "  no dots from " + device.name + "\n";
+    if (device.reports == 0) text += "  no reports from " + device.name + "\n";
+  }
+  return text.empty() ? "\n  no problems\n" : "\nProblems\n" + text;
+}
+
+}  // namespace
+
+RecordingSummary summarize(const std::string& file, DamagePolicy damage) {
+  RecordingReader reader(file, damage);
+  RecordingSummary summary{.file = file, .info = {}, .problems = {}, .devices = {}};
+  while (const auto report = reader.next()) {
+    count(summary.devices[report->device], *report);
+    summary.first = std::min(summary.first, report->arrival);
+    summary.last = std::max(summary.last, report->arrival);
+  }
+  summary.info = reader.info();
+  summary.problems = reader.problems();
+  name_devices(summary);
+  if (summary.first > summary.last)
+    throw Error({"holds no reports", file, "record again, and look whether the cameras are on"});
+  for (auto& [index, device] : summary.devices)
+    if (device.reports > 0) device.observations = observations_of(file, index, device, damage);
+  return summary;
+}
+
+std::string table_of(const RecordingSummary& summary) {
+  std::string text =
+      fmt::format("{}: {}\n{:.3f} s\n\n  {:<12}{:>10}{:>12}{:>11}{:>14}  by report id\n",
+                  summary.file, origin_of(summary.info), seconds(summary.last - summary.first),
+                  "device", "reports", "seconds", "a second", "observations");
+  for (const auto& [index, device] : summary.devices) text += device_row(device);
+  return text + gaps_table(summary) + problems_text(summary);
+}
+
+}  // namespace vindu::app

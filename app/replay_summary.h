@@ -1,0 +1,44 @@
+// What a recording holds, in figures: devices, rates, gaps, and what is wrong with it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tracker/recording_reader.h"
+
+namespace vindu::app {
+
+/// Upper edges of the gaps between two reports of one device; the last count has none.
+constexpr std::array<int, 10> kGapEdges_ms = {1, 2, 5, 9, 11, 15, 20, 50, 200, 1000};
+
+struct DeviceSummary {
+  std::string name;  ///< or the index where there is none; no blanks
+  Time first = Time::max();
+  Time last = Time::min();
+  std::uint64_t reports = 0;
+  std::uint64_t out_of_order = 0;  ///< arrived, by their times, before the one recorded before
+  std::uint64_t observations = 0;  ///< that the driver makes of them
+  std::map<std::uint8_t, std::uint64_t> by_id;  ///< reports of each report id
+  std::array<std::uint64_t, kGapEdges_ms.size() + 1> gaps{};
+};
+
+struct RecordingSummary {
+  std::string file;
+  RecordingInfo info;  ///< with all devices, also those of a text
+  RecordingProblems problems;
+  std::map<int, DeviceSummary> devices;  ///< by index
+  Time first = Time::max();
+  Time last = Time::min();
+};
+
+/// Reads all of it, once as bytes and once for each device through the driver. Throws Error as
+/// RecordingReader does, and where it holds no reports.
+RecordingSummary summarize(const std::string& file, DamagePolicy damage);
+
+/// For people.
+std::string table_of(const RecordingSummary& summary);
+
+}  // namespace vindu::app
