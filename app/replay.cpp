@@ -1,21 +1,19 @@
 // vindu replay: plays a recording through driver and tracker, as fast as it can or in real time,
 // and says what is in it: figures, a line of JSON for each report or pose, or its text form.
-#include <fmt/format.h>
-
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <sstream>
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/replay_json.h"
 #include "app/replay_summary.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "tracker/recording_devices.h"
 #include "tracker/tracker.h"
 #include "tracker/wiimote/reader.h"
-#include "tracker/wiimote/report.h"
 
 namespace vindu::app {
 namespace {
@@ -49,53 +47,6 @@ Pace pace_of(const ReplayCommand& command, Time first) {
 }
 
 void put_line(const std::string& line) { std::fputs((line + "\n").c_str(), stdout); }
-
-std::int64_t nanoseconds(Time time) { return Duration(time.time_since_epoch()).count(); }
-
-std::string json_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(letter) < 0x20)
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(letter));
-    else
-      quoted += letter;
-  }
-  return quoted + "\"";
-}
-
-std::string json_vec(const Vec3& v) { return fmt::format("[{},{},{}]", v.x(), v.y(), v.z()); }
-
-std::string json_of(const RecordedReport& report, const std::string& device) {
-  std::string line =
-      fmt::format(R"({{"device":{},"t_ns":{},"report":"0x{:02x}")", json_text(device),
-                  nanoseconds(report.arrival), report.bytes.front());
-  const ParsedReport parsed = parse_report(report.bytes);
-  if (!parsed.report) return line + fmt::format(R"(,"problem":"{}"}})", name_of(parsed.problem));
-  const auto [ax, ay, az] = parsed.report->acceleration_raw;
-  line += fmt::format(R"(,"buttons":{},"acceleration_raw":[{},{},{}],"dots":[)",
-                      parsed.report->buttons, ax, ay, az);
-  for (const Dot& dot : parsed.report->dots)
-    line += fmt::format(R"({}{{"x_px":{},"y_px":{},"size":{}}})", line.back() == '[' ? "" : ",",
-                        dot.x_px, dot.y_px, dot.size);
-  return line + "]}";
-}
-
-/// Root mean square over the axes of the position's standard deviation; null where not known.
-std::string sigma_of(const PoseSample& pose) {
-  const double variance_m2 = pose.covariance.topLeftCorner<3, 3>().trace() / 3;
-  return variance_m2 > 0 ? fmt::format("{}", std::sqrt(variance_m2)) : "null";
-}
-
-std::string json_of(const PoseSample& pose, const Vec3& eye_in_wall, Duration shift) {
-  const Quat& q = pose.room_from_head.rotation;
-  return fmt::format(
-      R"({{"t_ns":{},"object":{},"level":"{}","eye_in_wall_m":{},)"
-      R"("room_from_head":{{"translation_m":{},"quaternion_xyzw":[{},{},{},{}]}},"sigma_m":{}}})",
-      nanoseconds(pose.capture_time - shift), pose.object, name_of(pose.level),
-      json_vec(eye_in_wall), json_vec(pose.room_from_head.translation), q.x(), q.y(), q.z(), q.w(),
-      sigma_of(pose));
-}
 
 Site site_for(const ReplayCommand& command, const RecordingInfo& info) {
   if (!command.wall_file.empty()) return read_site(command.wall_file);
@@ -191,7 +142,7 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
     const std::optional<PoseSample> pose = tracker.track(now);
     const bool news =
         pose && (!said || pose->capture_time != said->capture_time || pose->level != said->level);
-    if (news) put_line(json_of(*pose, tracker.eye_in_wall(*pose), pace.shift));
+    if (news) put_line(json_of(*pose, tracker.eye_in_wall(*pose), -pace.shift));
     said = pose;
     if (ticks.now() >= summary.last) return 0;
     if (const auto next = ahead.silent_until(ticks.now())) ticks.advance_to(*next);

@@ -28,15 +28,24 @@ void count(DeviceSummary& device, const RecordedReport& report) {
   device.last = std::max(device.last, report.arrival);
 }
 
-std::uint64_t observations_of(const std::string& file, int index, const DeviceSummary& device,
-                              DamagePolicy damage) {
+void drive(const std::string& file, int index, DeviceSummary& device, DamagePolicy damage) {
   ManualClock clock;
   WiimoteReader reader(
       std::make_unique<ReplayHidDevice>(file, index, clock, ReplayOptions{.damage = damage}), index,
       device.name);
-  std::uint64_t observations = 0;
-  while (reader.next(device.last)) ++observations;
-  return observations;
+  for (const Time until : {device.first, device.last})
+    while (reader.next(until)) ++device.observations;
+  device.refused = reader.session().health().refused;
+}
+
+/// Nobody waits for that; it is two clocks in one file.
+void refuse_leap(const std::string& file, Time arrival, Time before) {
+  constexpr auto kLeap = std::chrono::days(7);
+  if (before == Time::min() || arrival - before < kLeap) return;
+  throw Error(
+      {fmt::format("the report at {} ns comes {:.0f} days after the ones before it",
+                   Duration(arrival.time_since_epoch()).count(), seconds(arrival - before) / 86400),
+       file, "give all arrival times on one clock, or cut the recording in two"});
 }
 
 /// Names stand in the text form only if all of them can be read again.
@@ -97,6 +106,7 @@ std::string problems_text(const RecordingSummary& summary) {
   say(summary.problems.damaged_bytes, "damaged bytes skipped");
   say(summary.problems.dropped, "reports dropped while recording: the disk was too slow or full");
   for (const auto& [index, device] : summary.devices) {
+    say(device.refused, "reports that are not a Wiimote's, " + device.name);
     say(device.out_of_order, "reports out of order, " + device.name);
     if (device.reports > 0 && device.observations == 0)
       text += "  no dots from " + device.name + "\n";
@@ -111,6 +121,7 @@ RecordingSummary summarize(const std::string& file, DamagePolicy damage) {
   RecordingReader reader(file, damage);
   RecordingSummary summary{.file = file, .info = {}, .problems = {}, .devices = {}};
   while (const auto report = reader.next()) {
+    refuse_leap(file, report->arrival, summary.last);
     count(summary.devices[report->device], *report);
     summary.first = std::min(summary.first, report->arrival);
     summary.last = std::max(summary.last, report->arrival);
@@ -121,7 +132,7 @@ RecordingSummary summarize(const std::string& file, DamagePolicy damage) {
   if (summary.first > summary.last)
     throw Error({"holds no reports", file, "record again, and look whether the cameras are on"});
   for (auto& [index, device] : summary.devices)
-    if (device.reports > 0) device.observations = observations_of(file, index, device, damage);
+    if (device.reports > 0) drive(file, index, device, damage);
   return summary;
 }
 

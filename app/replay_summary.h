@@ -21,6 +21,7 @@ struct DeviceSummary {
   std::uint64_t reports = 0;
   std::uint64_t out_of_order = 0;  ///< arrived, by their times, before the one recorded before
   std::uint64_t observations = 0;  ///< that the driver makes of them
+  std::uint64_t refused = 0;       ///< that it cannot read
   std::map<std::uint8_t, std::uint64_t> by_id;  ///< reports of each report id
   std::array<std::uint64_t, kGapEdges_ms.size() + 1> gaps{};
 };
