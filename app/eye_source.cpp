@@ -3,27 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "tracker/ir_camera/ir_camera.h"
-#include "tracker/wiimote/reader.h"
-
 namespace vindu::app {
 namespace {
-
-std::unique_ptr<ObservationSource> open_camera(const CameraConfig& camera, std::size_t index,
-                                               const EmulatedRoom& room, Clock& clock) {
-  const int number = static_cast<int>(index);
-  switch (camera.source) {
-    case CameraSource::emulated:
-      return std::make_unique<WiimoteReader>(room.connect(index), number, camera.name);
-    case CameraSource::video:
-      return make_ir_camera(camera, number, clock);
-    case CameraSource::wiimote:
-      break;
-  }
-  throw Error({"source \"" + name_of(camera.source) + "\" cannot be opened by this version",
-               "camera " + camera.name, "write source = \"emulated\" to try the rest without it"});
-}
 
 class PathEye final : public EyeSource {
  public:
@@ -83,17 +64,15 @@ class PointerEye final : public EyeSource {
 }  // namespace
 
 TrackedEye::TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
-                       const TrackerOptions& options)
+                       const TrackedEyeOptions& options)
     : clock_(clock),
-      tracker_(site.cameras, site.head, site.wall.room_from_wall, options),
-      ease_(site.viewer.default_eye_in_wall) {
-  for (std::size_t index = 0; index < site.cameras.size(); ++index)
-    cameras_.push_back(open_camera(site.cameras[index], index, room, clock));
-}
+      tracker_(site.cameras, site.head, site.wall.room_from_wall, options.tracker),
+      ease_(site.viewer.default_eye_in_wall),
+      cameras_(site, room, clock, options.cameras) {}
 
 EyeNow TrackedEye::at(Time now) {
   const Time begin = clock_.now();
-  for (const auto& camera : cameras_)
+  for (const auto& camera : cameras_.sources())
     while (const auto observation = camera->next(now)) tracker_.absorb(*observation);
   const std::optional<PoseSample> pose = tracker_.track(now);
   const bool known = pose && pose->level < TrackingLevel::held;

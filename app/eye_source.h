@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "app/cameras.h"
 #include "core/camera_path.h"
 #include "core/frame_state.h"
 #include "core/pose.h"
@@ -14,7 +14,6 @@
 #include "renderer/surface.h"
 #include "simulator/emulated_room.h"
 #include "tracker/eye_ease.h"
-#include "tracker/observation_source.h"
 #include "tracker/tracker.h"
 
 namespace vindu::app {
@@ -34,12 +33,17 @@ class EyeSource {
   virtual EyeNow at(Time now) = 0;
 };
 
-/// The cameras that the site names: emulated ones, video cameras and video files, in any mixture.
+struct TrackedEyeOptions {
+  TrackerOptions tracker;
+  CamerasOptions cameras;
+};
+
+/// The eye of the person whom the site's cameras see.
 class TrackedEye final : public EyeSource {
  public:
   /// The room and the clock must outlive this. Throws Error for cameras that cannot be opened.
   TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
-             const TrackerOptions& options);
+             const TrackedEyeOptions& options);
 
   EyeNow at(Time now) override;
   const Tracker& tracker() const { return tracker_; }
@@ -48,7 +52,7 @@ class TrackedEye final : public EyeSource {
   Clock& clock_;
   Tracker tracker_;
   EyeEase ease_;
-  std::vector<std::unique_ptr<ObservationSource>> cameras_;
+  Cameras cameras_;
 };
 
 /// The path begins with the first frame.

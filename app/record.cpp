@@ -8,12 +8,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <future>
 #include <memory>
 
+#include "app/cameras.h"
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/eye_source.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/resources.h"
@@ -51,40 +50,6 @@ class StopSignals {
  private:
   sigset_t signals_{};
   sigset_t before_{};
-};
-
-/// One reader thread for each camera; they end with this.
-class CameraThreads {
- public:
-  CameraThreads() = default;
-  ~CameraThreads() { stop_.request_stop(); }
-  CameraThreads(const CameraThreads&) = delete;
-  CameraThreads& operator=(const CameraThreads&) = delete;
-
-  void start(WiimoteReader reader, const Clock& clock) {
-    threads_.push_back(std::async(
-        std::launch::async,
-        [stop = stop_.get_token(), &clock](WiimoteReader own) {
-          while (!stop.stop_requested() && !own.gone())
-            while (own.next(clock.now() + std::chrono::milliseconds(50)))
-              if (stop.stop_requested()) return;
-        },
-        std::move(reader)));
-  }
-  bool all_gone() const {
-    return std::ranges::all_of(threads_, [](const std::future<void>& thread) {
-      return thread.wait_for(Duration{}) == std::future_status::ready;
-    });
-  }
-  /// Throws what a thread threw.
-  void join() {
-    stop_.request_stop();
-    for (std::future<void>& thread : threads_) thread.get();
-  }
-
- private:
-  std::stop_source stop_;
-  std::vector<std::future<void>> threads_;
 };
 
 std::string text_of_file(const std::string& file) {
@@ -142,19 +107,26 @@ class Progress {
   std::optional<Time> shown_;
 };
 
-/// Until the time is over, a signal comes, no camera is left, or nothing can be written.
-void wait_for_end(const RecordCommand& command, const StopSignals& signals,
-                  const CameraThreads& cameras, const RecordingWriter& writer,
-                  const RecordingInfo& info) {
+/// Until the time is over, a signal comes, or nothing can be written.
+void wait_for_end(const RecordCommand& command, const StopSignals& signals, const Cameras& cameras,
+                  const RecordingWriter& writer, const RecordingInfo& info) {
   const MonotonicClock clock;
   const Time end = command.seconds ? clock.now() + from_seconds(*command.seconds) : Time::max();
   Progress progress(info);
   while (clock.now() < end && writer.status().failure.empty()) {
     progress.show(writer.status(), clock.now());
+    for (const auto& camera : cameras.sources())
+      while (camera->next(Time::max())) continue;  // the recording has them
     const Duration rest = end - clock.now();
     if (signals.came_within(std::clamp<Duration>(rest, {}, std::chrono::milliseconds(100)))) return;
-    if (cameras.all_gone()) return log_warning("record", "no camera is left");
   }
+}
+
+void refuse_video(const Site& site) {
+  for (const CameraConfig& camera : site.cameras)
+    if (camera.source == CameraSource::video)
+      throw Error({"is a video camera, whose pictures are not recorded", "camera " + camera.name,
+                   "record it by ffmpeg; a video file is a camera too: source = \"video\""});
 }
 
 int record(const RecordCommand& command) {
@@ -163,28 +135,25 @@ int record(const RecordCommand& command) {
   const Site site = read_site(wall_file);
   if (site.cameras.empty())
     throw Error({"names no [[camera]]", wall_file, "add the cameras that are to be recorded"});
+  refuse_video(site);
   const StopSignals signals;
   MonotonicClock clock;
   EmulatedRoomOptions room_options;
   room_options.person.seed = room_options.wiimote.seed = command.seed;
   room_options.person.start = clock.now();
   const EmulatedRoom room(site, clock, room_options);
-  std::vector<std::unique_ptr<HidDevice>> devices;  // before the file: a failure leaves none
-  for (std::size_t i = 0; i < site.cameras.size(); ++i)
-    devices.push_back(open_camera(site.cameras[i], i, room));
   const RecordingInfo info = describe(wall_file, site, clock);
   const std::string file = command.out.empty() ? default_name() : command.out;
   RecordingWriter writer(file, info,
                          {.rotate_bytes = static_cast<std::uint64_t>(1e6 * command.rotate_mb)});
   const Time begin = clock.now();
-  CameraThreads cameras;
-  for (std::size_t i = 0; i < devices.size(); ++i) {
-    const int index = static_cast<int>(i);
-    auto device = std::make_unique<RecordingHidDevice>(std::move(devices[i]), writer, index);
-    cameras.start({std::move(device), index, site.cameras[i].name}, clock);
+  {
+    const Cameras cameras(
+        site, room, clock, {.tap = [&](std::unique_ptr<HidDevice> device, int camera) {
+          return std::make_unique<RecordingHidDevice>(std::move(device), writer, camera);
+        }});
+    wait_for_end(command, signals, cameras, writer, info);
   }
-  wait_for_end(command, signals, cameras, writer, info);
-  cameras.join();
   writer.flush();
   const RecordingStatus status = writer.status();
   if (!status.failure.empty()) throw Error(status.failure);

@@ -122,8 +122,10 @@ std::unique_ptr<EyeSource> make_eyes(Run& run) {
   if (options.mode == "loop")
     return follow_path(read_camera_path(options.path_file.empty() ? find_asset("paths/sweep.toml")
                                                                   : options.path_file));
-  auto tracked =
-      std::make_unique<TrackedEye>(run.site, *run.room, *run.clock, TrackerOptions{options.method});
+  auto tracked = std::make_unique<TrackedEye>(
+      run.site, *run.room, *run.clock,
+      TrackedEyeOptions{.tracker = {options.method},
+                        .cameras = {.threads = options.clock != "manual", .tap = {}}});
   run.tracker = &tracked->tracker();
   return tracked;
 }

@@ -172,7 +172,7 @@ std::unique_ptr<EyeSource> choose_eyes(const ViewOptions& options, Window& windo
     throw Error({"no cameras are known", "--track",
                  "name a wall file of one screen with [[camera]] tables, as "
                  "assets/walls/desk.toml: --wall FILE"});
-  return std::make_unique<TrackedEye>(site, room, clock, TrackerOptions{});
+  return std::make_unique<TrackedEye>(site, room, clock, TrackedEyeOptions{});
 }
 
 /// Where there is no display: one picture of the model on a screen of 0.53 m.

@@ -33,13 +33,9 @@ struct WatchOptions {
 
 WiimoteSettings settings_of(const WatchOptions& options, int player) {
   const auto sensitivity = sensitivity_from(options.sensitivity);
-  if (!sensitivity) {
-    std::string names;
-    for (const NamedSensitivity& named : named_sensitivities())
-      names += std::string(names.empty() ? "" : ", ") + named.name;
+  if (!sensitivity)
     throw Error({"is no sensitivity", "--sensitivity " + options.sensitivity,
-                 "give one of " + names + ", or 22 hexadecimal digits (blocks 1 and 2)"});
-  }
+                 "give " + sensitivity_names() + ", or 22 hexadecimal digits (blocks 1 and 2)"});
   const IrFormat format = options.format == "basic"  ? IrFormat::basic
                           : options.format == "full" ? IrFormat::full
                                                      : IrFormat::extended;
@@ -86,9 +82,9 @@ class Watched {
                .name = "Wiimote " + std::to_string(number),
                .address = info.address,
                .settings = settings_of(options, number),
-               .on_sample = [this, number, json = options.json](const WiimoteSample& sample) {
-                 take(number, json, sample);
-               }}) {}
+               .on_sample = [this, number, json = options.json](
+                                const WiimoteSample& sample) { take(number, json, sample); },
+               .tap = {}}) {}
 
   /// `span_s`: since the last call.
   WatchedWiimote now(double span_s) {

@@ -219,6 +219,13 @@ CameraSource source_from(const std::string& name) {
                            : CameraSource::emulated;
 }
 
+void read_wiimote(TomlTable& table, CameraConfig& camera) {
+  camera.address = table.text("address").value_or("");
+  camera.sensitivity = table.text("sensitivity").value_or(camera.sensitivity);
+  camera.dot_format =
+      table.one_of("dot_format", {"basic", "extended", "full"}).value_or(camera.dot_format);
+}
+
 /// Fields of another source are not known, except that an emulated camera may stand in for any.
 void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
   for (TomlTable& table : root.tables("camera")) {
@@ -232,7 +239,7 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
     const auto source = table.one_of("source", {"emulated", "wiimote", "video"});
     camera.source = source_from(source.value_or("emulated"));
     if (camera.source != CameraSource::wiimote) camera.video = read_video(table);
-    if (camera.source != CameraSource::video) camera.address = table.text("address").value_or("");
+    if (camera.source != CameraSource::video) read_wiimote(table, camera);
     if (camera.source == CameraSource::video && !table.has("device") && !table.has("file"))
       table.fail("device", "is missing; write device = \"/dev/video0\", or file for a video");
     camera.intrinsics = read_intrinsics(table, intrinsics_before_calibration(camera));

@@ -47,8 +47,10 @@ struct VideoConfig {
 struct CameraConfig {
   std::string name;
   CameraSource source = CameraSource::emulated;
-  std::string address;  ///< of a Wiimote; empty: any
-  VideoConfig video;    ///< where that is the source
+  std::string address;                  ///< of a Wiimote; empty: any
+  std::string sensitivity = "wii-4";    ///< of a Wiimote: a name, or 22 hexadecimal digits
+  std::string dot_format = "extended";  ///< of a Wiimote: basic, extended or full
+  VideoConfig video;                    ///< where that is the source
   Intrinsics intrinsics;
   Rigid3 room_from_camera;  ///< camera: +x right, +y down, +z along the optical axis
 };

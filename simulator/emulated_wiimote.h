@@ -25,7 +25,7 @@ struct EmulatedWiimoteOptions {
   double noise_px = 0.3;  ///< sigma of each coordinate, before rounding to whole units
   std::vector<Glint> glints;
   /// True: streams dots as soon as report 0x33 is asked for; false: the host must start its camera.
-  bool camera_already_on = true;
+  bool camera_already_on = false;
   LinkOptions link;
   bool kernel = false;   ///< hid-wiimote interferes
   std::size_t ring = 0;  ///< reports kept for a slow reader; 0: all, hidraw: 64

@@ -83,7 +83,8 @@ std::unique_ptr<HidDevice> LiveWiimote::find_device(HidInfo& info, std::string& 
     if (!claims_.claim(found.path)) continue;
     try {
       info = found;
-      return bus_.open(found.path);
+      std::unique_ptr<HidDevice> device = bus_.open(found.path);
+      return options_.tap ? options_.tap(std::move(device)) : std::move(device);
     } catch (const Error& error) {
       trouble = error.what();
     }

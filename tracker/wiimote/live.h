@@ -34,6 +34,8 @@ struct LiveWiimoteOptions {
   std::string address;  ///< of the device; empty: the first that nobody else has
   WiimoteSettings settings;
   std::function<void(const WiimoteSample&)> on_sample;  ///< called on the reader's thread
+  /// What a device is put into when it was opened: a recorder.
+  std::function<std::unique_ptr<HidDevice>(std::unique_ptr<HidDevice>)> tap;
 };
 
 /// What the thread knows, for people to look at.

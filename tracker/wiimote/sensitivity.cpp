@@ -36,6 +36,13 @@ std::optional<std::vector<std::uint8_t>> bytes_from_hex(std::string text) {
 
 std::span<const NamedSensitivity> named_sensitivities() { return kNamed; }
 
+std::string sensitivity_names() {
+  std::string names;
+  for (const NamedSensitivity& named : kNamed)
+    names += std::string(names.empty() ? "" : ", ") + named.name;
+  return names;
+}
+
 std::optional<Sensitivity> sensitivity_from(const std::string& text) {
   const auto* named =
       std::ranges::find_if(kNamed, [&](const NamedSensitivity& each) { return each.name == text; });

@@ -30,6 +30,9 @@ struct NamedSensitivity {
 /// console and those that WiiBrew, cwiid and Kestrel use.
 std::span<const NamedSensitivity> named_sensitivities();
 
+/// "wii-1, wii-2, ...", for messages.
+std::string sensitivity_names();
+
 /// Of a name, or of 11 bytes as 22 hexadecimal digits, blanks between them allowed; empty when it
 /// is neither.
 std::optional<Sensitivity> sensitivity_from(const std::string& text);

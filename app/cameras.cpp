@@ -1,0 +1,62 @@
+#include "app/cameras.h"
+
+#include "core/error.h"
+#include "tracker/ir_camera/ir_camera.h"
+#include "tracker/wiimote/hidapi_bus.h"
+
+namespace vindu::app {
+
+WiimoteSettings wiimote_settings(const CameraConfig& camera, int number) {
+  const auto sensitivity = sensitivity_from(camera.sensitivity);
+  if (!sensitivity)
+    throw Error({"sensitivity \"" + camera.sensitivity + "\" is not known", "camera " + camera.name,
+                 "write " + sensitivity_names() + ", or 22 hexadecimal digits (blocks 1 and 2)"});
+  const IrFormat format = camera.dot_format == "basic"  ? IrFormat::basic
+                          : camera.dot_format == "full" ? IrFormat::full
+                                                        : IrFormat::extended;
+  return {.format = format, .sensitivity = *sensitivity, .player = number + 1};
+}
+
+Cameras::Cameras(const Site& site, const EmulatedRoom& room, Clock& clock,
+                 const CamerasOptions& options)
+    : clock_(clock), options_(options) {
+  for (const CameraConfig& camera : site.cameras)
+    sources_.push_back(open(camera, static_cast<int>(sources_.size()), room));
+}
+
+std::unique_ptr<ObservationSource> Cameras::open(const CameraConfig& camera, int number,
+                                                 const EmulatedRoom& room) {
+  if (camera.source == CameraSource::video) return make_ir_camera(camera, number, clock_);
+  if (camera.source == CameraSource::wiimote) {
+    if (!bus_) bus_ = make_hidapi_bus(clock_);
+    return open_live(*bus_, camera.address, camera, number);
+  }
+  const auto index = static_cast<std::size_t>(number);
+  if (options_.threads) {
+    EmulatedHidBus& bus = room.bus();
+    return open_live(bus, bus.device(index).options().info.address, camera, number);
+  }
+  auto device = room.connect(index);
+  if (options_.tap) device = options_.tap(std::move(device), number);
+  return std::make_unique<WiimoteReader>(std::move(device), number, camera.name,
+                                         wiimote_settings(camera, number));
+}
+
+std::unique_ptr<ObservationSource> Cameras::open_live(HidBus& bus, const std::string& address,
+                                                      const CameraConfig& camera, int number) {
+  LiveWiimoteOptions live{.camera = number,
+                          .name = camera.name,
+                          .address = address,
+                          .settings = wiimote_settings(camera, number),
+                          .on_sample = {},
+                          .tap = {}};
+  if (options_.tap)
+    live.tap = [tap = options_.tap, number](std::unique_ptr<HidDevice> device) {
+      return tap(std::move(device), number);
+    };
+  auto wiimote = std::make_unique<LiveWiimote>(bus, clock_, claims_, live);
+  live_.push_back(wiimote.get());
+  return wiimote;
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,54 @@
+// The cameras that a site names, opened: Wiimotes of this machine, emulated ones, video cameras and
+// files, in any mixture. Everything above sees observations alone.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/site.h"
+#include "simulator/emulated_room.h"
+#include "tracker/observation_source.h"
+#include "tracker/wiimote/live.h"
+
+namespace vindu::app {
+
+struct CamerasOptions {
+  /// A thread for each Wiimote, emulated or not, as in daily use. Without, an emulated one is read
+  /// by whoever asks for its observations: under a manual clock runs are bit-equal.
+  bool threads = true;
+  /// What the reports of a Wiimote pass through on their way to the driver.
+  std::function<std::unique_ptr<HidDevice>(std::unique_ptr<HidDevice>, int camera)> tap;
+};
+
+/// Room and clock must outlive this. Bound to one thread.
+class Cameras {
+ public:
+  /// Throws Error for what cannot be opened. A Wiimote that is not there yet is waited for.
+  Cameras(const Site& site, const EmulatedRoom& room, Clock& clock,
+          const CamerasOptions& options = {});
+
+  /// In the order of the site's cameras.
+  const std::vector<std::unique_ptr<ObservationSource>>& sources() const { return sources_; }
+  /// Those that have a thread: how they are, for people to read.
+  const std::vector<const LiveWiimote*>& live() const { return live_; }
+
+ private:
+  std::unique_ptr<ObservationSource> open(const CameraConfig& camera, int number,
+                                          const EmulatedRoom& room);
+  std::unique_ptr<ObservationSource> open_live(HidBus& bus, const std::string& address,
+                                               const CameraConfig& camera, int number);
+
+  Clock& clock_;
+  CamerasOptions options_;
+  WiimoteClaims claims_;
+  std::unique_ptr<HidBus> bus_;  // of this machine, once a camera needs it
+  std::vector<std::unique_ptr<ObservationSource>> sources_;
+  std::vector<const LiveWiimote*> live_;
+};
+
+/// What the wall file says of a Wiimote. Throws Error that names the camera.
+WiimoteSettings wiimote_settings(const CameraConfig& camera, int number);
+
+}  // namespace vindu::app
