@@ -206,7 +206,12 @@ std::optional<EmulatedReport> WiimoteEmulator::next(Time until) {
 EmulatedReport WiimoteEmulator::leave(const Reply& reply) {
   if (reply.after == After::write_done) writing_ = false;
   if (reply.after == After::read_done) reading_ = false;
-  if (reply.bytes[0] == 0x20) mode_ = 0x30, continuous_ = false, last_.reset();
+  if (reply.bytes[0] == 0x20) {  // resets the mode
+    mode_ = 0x30;
+    continuous_ = false;
+    second_half_.reset();
+    last_.reset();
+  }
   const SensorView view = look_(reply.at);
   const auto buttons = button_bytes(view.buttons_1, view.buttons_2);
   EmulatedReport report{{reply.bytes[0], buttons[0], buttons[1]}, reply.bytes.size() + 2, reply.at};

@@ -39,10 +39,12 @@ std::optional<Time> EmulatedLink::carry(Time departure, bool may_be_lost) {
     while (arrival >= pause_end_) plan_pause(pause_end_);
     if (arrival >= pause_begin_) arrival = pause_end_;
   }
-  // One that waits for its turn follows the one before it at a burst's gap.
-  if (arrival <= last_arrival_)
-    arrival = last_arrival_ + between(options_.burst_gap_shortest, options_.burst_gap_longest);
-  return last_arrival_ = arrival;
+  if (last_arrival_ && arrival < *last_arrival_ + options_.burst_gap_longest) {
+    const Duration gap = between(options_.burst_gap_shortest, options_.burst_gap_longest);
+    arrival = std::max(arrival, *last_arrival_ + gap);
+  }
+  last_arrival_ = arrival;
+  return arrival;
 }
 
 }  // namespace vindu

@@ -21,8 +21,8 @@ struct LinkOptions {
   /// Every `pause_every` on average (zero: never) the adapter serves others, for a time between the
   /// shortest and the longest pause; what has queued up then comes at gaps between these two.
   Duration pause_every{};
-  Duration pause_shortest = std::chrono::milliseconds(11);
-  Duration pause_longest = std::chrono::milliseconds(19);
+  Duration pause_shortest = std::chrono::milliseconds(16);
+  Duration pause_longest = std::chrono::milliseconds(22);
   Duration burst_gap_shortest = std::chrono::microseconds(550);
   Duration burst_gap_longest = std::chrono::microseconds(2250);
 };
@@ -51,7 +51,7 @@ class EmulatedLink {
   Time pause_begin_ = Time::max();
   Time pause_end_ = Time::max();
   bool planned_ = false;
-  Time last_arrival_ = Time::min();
+  std::optional<Time> last_arrival_;
 };
 
 }  // namespace vindu
