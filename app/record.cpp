@@ -86,10 +86,10 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void show(const RecordingStatus& status, Time now) {
-    if (!terminal_ || (shown_ && now - *shown_ < std::chrono::seconds(1))) return;
+    if (!terminal_ || (shown_ && now - shown_at_ < std::chrono::seconds(1))) return;
     std::string line = "\r\x1b[K";
     for (std::size_t i = 0; i < info_.devices.size(); ++i) {
-      const double span_s = shown_ ? seconds(now - *shown_) : 1;
+      const double span_s = shown_ ? seconds(now - shown_at_) : 1;
       line += fmt::format("{}: {} ({:.0f}/s)   ", info_.devices[i].name, status.reports[i],
                           static_cast<double>(status.reports[i] - before_[i]) / span_s);
     }
@@ -97,14 +97,16 @@ class Progress {
     std::fputs((line + fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(status.bytes))).c_str(),
                stderr);
     before_ = status.reports;
-    shown_ = now;
+    shown_ = true;
+    shown_at_ = now;
   }
 
  private:
   const bool terminal_ = isatty(STDERR_FILENO) == 1;
   const RecordingInfo& info_;
   std::vector<std::uint64_t> before_;
-  std::optional<Time> shown_;
+  bool shown_ = false;
+  Time shown_at_{};
 };
 
 /// Until the time is over, a signal comes, or nothing can be written.

@@ -282,7 +282,7 @@ TEST_F(WiimoteSessionTest, RumblesInEveryReportUntilItIsToldNotTo) {
   connection.session.rumble(true);
   connection.run(milliseconds(20));
   EXPECT_TRUE(connection.device.rumbling());
-  connection.run(seconds(3));  // with a check of the camera between
+  connection.run(seconds(12));  // with a check of the camera between
   EXPECT_TRUE(connection.device.rumbling());
   connection.session.rumble(false);
   connection.run(milliseconds(20));

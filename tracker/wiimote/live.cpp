@@ -136,6 +136,7 @@ void LiveWiimote::run(const std::stop_token& stop) {
       reader_->disconnect();
       claims_.release(device_.path);
     }
+    if (stop.stop_requested()) return;
     publish(false, trouble);
     wait(stop, kLookAgain);
   }

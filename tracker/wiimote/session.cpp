@@ -18,7 +18,9 @@ constexpr Patience kChecking{milliseconds(100), 3};
 constexpr Duration kStopped = milliseconds(21);
 constexpr Duration kAskAgain = milliseconds(25);
 constexpr Duration kRestart = milliseconds(600);  // asking did not help: start the camera again
-constexpr Duration kFirstCheck = milliseconds(60), kCheckEvery = std::chrono::seconds(2);
+constexpr Duration kFirstCheck = milliseconds(60), kCheckAgain = std::chrono::seconds(2);
+// The answers take the place of four data reports.
+constexpr Duration kCheckEvery = std::chrono::seconds(10);
 constexpr Duration kRest = std::chrono::seconds(1);
 constexpr int kManyStarts = 4;
 
@@ -141,7 +143,7 @@ void WiimoteSession::exchange_failed(Time now) {
 void WiimoteSession::exchange_deserted(Time now) {
   if (phase_ == Phase::checking) {
     phase_ = Phase::streaming;
-    next_check_ = now + kCheckEvery;
+    next_check_ = now + kCheckAgain;
     return;
   }
   health_.trouble = exchange_.failure() + "; is it asleep or out of reach? Press a button on it";
