@@ -70,7 +70,8 @@ TEST(TrackingChain, follows_a_walking_person_through_the_bytes_of_two_wiimotes) 
                 static_cast<unsigned long long>(run.counts.frames_lost_by_reason[i]));
   EXPECT_GT(tracked, 0.8);
   EXPECT_LT(rms(run.errors_m), 0.03);
-  EXPECT_GT(run.counts.reports, 2 * 29900u);
+  // Of 100 a second; the camera's start and its checks take the place of some.
+  EXPECT_GT(run.counts.reports, 2 * 29800u);
 }
 
 TEST(TrackingChain, counts_what_it_loses_when_the_person_walks_out_of_sight) {

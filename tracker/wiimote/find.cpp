@@ -45,6 +45,6 @@ std::optional<StatusReport> probe(HidDevice& device, Clock& clock, Duration pati
   return std::nullopt;
 }
 
-double battery_charge(int level) { return std::clamp(2.46 * level / 255 - 0.013, 0.0, 1.0); }
+double battery_charge(int level) { return std::min(level / 208.0, 1.0); }
 
 }  // namespace vindu

@@ -33,7 +33,7 @@ std::vector<HidInfo> find_wiimotes(HidBus& bus);
 /// streaming to somebody else stops for a moment.
 std::optional<StatusReport> probe(HidDevice& device, Clock& clock, Duration patience);
 
-/// The charge of a status report's battery byte, 0 to 1 (a fit by Dolphin: 2.46 V / 255 - 0.013).
+/// The charge of a status report's battery byte, 0 to 1: 0xd0 is full (cwiid's scale).
 double battery_charge(int level);
 
 }  // namespace vindu

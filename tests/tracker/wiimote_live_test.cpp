@@ -1,0 +1,152 @@
+// Wiimotes with threads of their own, on emulated devices in real time: found, lost, found again,
+// shared out among cameras.
+#include "tracker/wiimote/live.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tracker/wiimote/emulator_bus.h"
+#include "tracker/wiimote/find.h"
+
+namespace vindu {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+
+/// A dot whose column tells the device.
+WiimoteEmulator::Look dot_at(double x_px) {
+  return [x_px](Time) {
+    SensorView view;
+    view.spots = {{.x_px = x_px, .y_px = 300, .brightness = 0.1}};
+    return view;
+  };
+}
+
+class LiveWiimoteTest : public ::testing::Test {
+ protected:
+  EmulatedDevice& add(double x_px, EmulatedDeviceOptions options = {}) {
+    return bus_.add(std::move(options), dot_at(x_px));
+  }
+  LiveWiimoteOptions named(const std::string& name, const std::string& address = {}) {
+    return {
+        .camera = 0, .name = name, .address = address, .settings = {}, .on_sample = {}, .tap = {}};
+  }
+  /// Waits until it holds; a test that waits for ten seconds has failed.
+  bool eventually(const std::function<bool()>& holds) {
+    for (int i = 0; i < 2000; ++i) {
+      if (holds()) return true;
+      clock_.sleep_until(clock_.now() + milliseconds(5));
+    }
+    return false;
+  }
+  /// The column of the first dot that comes.
+  std::optional<double> dot_of(LiveWiimote& wiimote) {
+    std::optional<double> x_px;
+    eventually([&] {
+      while (const auto observation = wiimote.next(clock_.now()))
+        if (!observation->dots.empty()) x_px = observation->dots[0].x_px;
+      return x_px.has_value();
+    });
+    return x_px;
+  }
+
+  MonotonicClock clock_;
+  EmulatedHidBus bus_{clock_};
+  WiimoteClaims claims_;
+};
+
+TEST_F(LiveWiimoteTest, GivesEveryCameraADeviceOfItsOwn) {
+  add(100), add(200);
+  LiveWiimote left(bus_, clock_, claims_, named("left")),
+      right(bus_, clock_, claims_, named("right"));
+  const auto a = dot_of(left), b = dot_of(right);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(*a + *b, 300);
+  EXPECT_FALSE(left.gone());
+}
+
+TEST_F(LiveWiimoteTest, TakesTheDeviceOfItsAddressAlone) {
+  add(100);
+  const std::string wanted = add(200).options().info.address;
+  LiveWiimote right(bus_, clock_, claims_, named("right", wanted));
+  EXPECT_EQ(dot_of(right), 200);
+  EXPECT_EQ(right.state().device.address, wanted);
+}
+
+TEST_F(LiveWiimoteTest, WaitsForADeviceThatWentAwayAndGoesOnWithIt) {
+  EmulatedDevice& device = add(100);
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  ASSERT_TRUE(dot_of(left));
+  device.unplug();
+  ASSERT_TRUE(eventually([&] { return left.gone(); }));
+  EXPECT_TRUE(eventually([&] { return !left.state().trouble.empty(); }));
+  EXPECT_THAT(left.state().trouble, HasSubstr("no Wiimote is connected"));
+  while (left.next(clock_.now())) continue;
+  device.plug_in();
+  EXPECT_EQ(dot_of(left), 100);
+  ASSERT_TRUE(eventually([&] {
+    return left.state().health.gaps[static_cast<std::size_t>(GapCause::absent)].gaps == 1;
+  }));
+}
+
+TEST_F(LiveWiimoteTest, SaysWhatHindersItAndKeepsTrying) {
+  EmulatedDeviceOptions forbidden;
+  forbidden.permitted = false;
+  add(100, forbidden);
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  EXPECT_TRUE(eventually([&] { return !left.state().trouble.empty(); }));
+  EXPECT_THAT(left.state().trouble, HasSubstr("udev"));
+}
+
+TEST_F(LiveWiimoteTest, SkipsTheEmptySlotsOfAnAdapterAndOtherControllers) {
+  bus_.add_strangers();
+  bus_.add_dolphin_bar(1, dot_at(100));
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  EXPECT_EQ(dot_of(left), 100);
+}
+
+TEST_F(LiveWiimoteTest, CountsWhatNobodyTookAndKeepsTheNewest) {
+  EmulatedDeviceOptions fast;
+  fast.firmware.report_period = milliseconds(1);
+  add(100, fast);
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  ASSERT_TRUE(eventually([&] { return left.state().dropped > 10; }));
+  const auto oldest = left.next(clock_.now());
+  ASSERT_TRUE(oldest);
+  EXPECT_LT(clock_.now() - oldest->arrival, seconds(5));
+}
+
+TEST_F(LiveWiimoteTest, EndsWhileItWaits) {
+  { const LiveWiimote none(bus_, clock_, claims_, named("none")); }
+  add(100);
+  { const LiveWiimote starting(bus_, clock_, claims_, named("starting")); }
+  EXPECT_TRUE(claims_.claim(bus_.path(0)));  // it was given back
+}
+
+TEST(FindWiimotes, KnowsThemByIdOrNameAndLeavesOthers) {
+  const auto info = [](int product, const char* name, const char* address) {
+    return HidInfo{"/dev/hidraw0", 0x057e, static_cast<std::uint16_t>(product), name, address};
+  };
+  EXPECT_EQ(kind_of(info(0x0306, "Nintendo RVL-CNT-01", "00:1f")), WiimoteKind::classic);
+  EXPECT_EQ(kind_of(info(0x0330, "Nintendo RVL-CNT-01-TR", "00:1f")), WiimoteKind::tr);
+  EXPECT_EQ(kind_of(info(0x9999, "Nintendo RVL-CNT-01", "00:1f")), WiimoteKind::classic);
+  EXPECT_EQ(kind_of(info(0x0330, "", "00:1f")), WiimoteKind::tr);
+  EXPECT_EQ(kind_of(info(0x0306, "Mayflash Wiimote PC Adapter", "")), WiimoteKind::adapter);
+  EXPECT_EQ(kind_of(info(0x0306, "Nintendo RVL-WBC-01", "00:1f")), WiimoteKind::none);
+  EXPECT_EQ(kind_of(info(0x0330, "Nintendo RVL-CNT-01-UC", "00:1f")), WiimoteKind::none);
+  EXPECT_EQ(kind_of(info(0x2009, "Pro Controller", "00:1f")), WiimoteKind::none);
+}
+
+TEST(BatteryCharge, IsFullWhereNewBatteriesStand) {
+  EXPECT_NEAR(battery_charge(0), 0, 1e-9);
+  EXPECT_NEAR(battery_charge(0x68), 0.5, 1e-9);
+  EXPECT_NEAR(battery_charge(0xd0), 1, 1e-9);
+  EXPECT_NEAR(battery_charge(0xff), 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace vindu
