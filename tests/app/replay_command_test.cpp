@@ -1,0 +1,187 @@
+// vindu record and vindu replay: a recording says what the cameras said, whole or cut off, and
+// gives the same poses every time, and the same as were tracked live.
+#include <fmt/format.h>
+
+#include "simulator/emulated_room.h"
+#include "tests/app/process.h"
+#include "tracker/recording_devices.h"
+#include "tracker/tracker.h"
+#include "tracker/wiimote/reader.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+using ::testing::Contains;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+const std::string kWall = VINDU_SOURCE_DIR "/assets/walls/tromso.toml";
+
+/// What a line of poses says of the eye.
+std::string eye_text(const Vec3& eye) {
+  return fmt::format(R"("eye_in_wall_m":[{},{},{}])", eye.x(), eye.y(), eye.z());
+}
+
+class ReplayCommand : public AppTest {
+ protected:
+  /// Records five seconds of the emulated room under a manual clock, and tracks meanwhile as replay
+  /// does: at multiples of the wall's period, one line for what is new.
+  std::vector<std::string> record_and_track_live(const std::string& file) const {
+    const Site site = read_site(kWall);
+    ManualClock clock;
+    const EmulatedRoom room(site, clock);
+    RecordingInfo info;
+    info.program = "vindu test";
+    info.wall_file = kWall;
+    info.wall_text = bytes_of(kWall);
+    for (const CameraConfig& camera : site.cameras)
+      info.devices.push_back({static_cast<int>(info.devices.size()), camera.name});
+    RecordingWriter writer(path(file), info);
+    std::vector<WiimoteReader> readers;
+    for (int i = 0; i < static_cast<int>(site.cameras.size()); ++i)
+      readers.emplace_back(std::make_unique<RecordingHidDevice>(room.connect(i), writer, i), i,
+                           site.cameras[i].name);
+    Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
+    std::vector<std::string> eyes;
+    std::optional<PoseSample> said;
+    for (int tick = 0; tick <= 5 * site.rate_hz; ++tick) {
+      const Time now{from_seconds(tick / site.rate_hz)};
+      for (WiimoteReader& reader : readers)
+        while (const auto seen = reader.next(now)) tracker.absorb(*seen);
+      const auto pose = tracker.track(now);
+      if (pose && (!said || pose->capture_time != said->capture_time || pose->level != said->level))
+        eyes.push_back(eye_text(tracker.eye_in_wall(*pose)));
+      said = pose;
+    }
+    return eyes;
+  }
+  std::string cut(const std::string& file, std::size_t bytes) const {
+    const std::string whole = bytes_of(path(file));
+    return write("cut.vrec", whole.substr(0, whole.size() - bytes));
+  }
+};
+
+TEST_F(ReplayCommand, TracksTheSamePosesAsWereTrackedLive) {
+  const auto eyes = record_and_track_live("a.vrec");
+  const ProcessResult result = vindu({"replay", path("a.vrec"), "--track"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto lines = lines_of(result.out);
+  ASSERT_GT(eyes.size(), 50u);
+  ASSERT_EQ(lines.size(), eyes.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) ASSERT_THAT(lines[i], HasSubstr(eyes[i])) << i;
+}
+
+TEST_F(ReplayCommand, IsBitEqualEachTimeAtBothSpeedsAndThroughTheTextForm) {
+  record_and_track_live("a.vrec");
+  const std::string once = vindu({"replay", path("a.vrec"), "--track"}).out;
+  ASSERT_THAT(lines_of(once), Not(SizeIs(0)));
+  EXPECT_EQ(vindu({"replay", path("a.vrec"), "--track"}).out, once);
+  EXPECT_EQ(vindu({"replay", path("a.vrec"), "--track", "--speed", "real"}).out, once);
+  const std::string text = write("a.txt", vindu({"replay", path("a.vrec"), "--text"}).out);
+  EXPECT_EQ(vindu({"replay", text, "--track", "--wall", kWall}).out, once);
+  const std::string json = vindu({"replay", path("a.vrec"), "--json"}).out;
+  EXPECT_EQ(vindu({"replay", text, "--json"}).out, json);
+}
+
+TEST_F(ReplayCommand, PrintsFiguresOfWhatARecordingHolds) {
+  record_and_track_live("a.vrec");
+  const ProcessResult result = vindu({"replay", path("a.vrec")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part : {"vindu test", "left", "right", "gaps, ms", "0x33: ", "no problems"})
+    EXPECT_THAT(result.out, HasSubstr(part));
+}
+
+TEST_F(ReplayCommand, PrintsALineOfJsonForEachReport) {
+  const std::string text = write("a.txt",
+                                 "left 1000 33 60 60 80 81 82 2a 10 23 ff ff ff ff ff ff ff ff ff\n"
+                                 "left 2000 2200001600\nright 2500 ab\n");
+  const auto lines = lines_of(vindu({"replay", text, "--json"}).out);
+  ASSERT_THAT(lines, SizeIs(3));
+  EXPECT_EQ(
+      lines[0],
+      R"({"device":"left","t_ns":1000,"report":"0x33","kind":"data","buttons":0,)"
+      R"("acceleration_raw":[515,518,522],"dots":[{"slot":0,"x_px":554,"y_px":16,"size":3}]})");
+  EXPECT_THAT(lines[1], HasSubstr(R"("kind":"acknowledgement","buttons":0,"command":"0x16")"));
+  EXPECT_EQ(lines[2], R"({"device":"right","t_ns":2500,"report":"0xab","problem":"unknown id"})");
+}
+
+TEST_F(ReplayCommand, WarnsOfATornEndAndReadsTheRest) {
+  record_and_track_live("a.vrec");
+  const ProcessResult result = vindu({"replay", cut("a.vrec", 5)});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, ContainsRegex("cut.vrec: the last [0-9]+ bytes are no whole record"));
+  EXPECT_THAT(result.out, ContainsRegex("[0-9]+ bytes lost at the end"));
+}
+
+TEST_F(ReplayCommand, RefusesDamageWithItsPlaceAndReadsAroundItWhenAsked) {
+  record_and_track_live("a.vrec");
+  std::string bytes = bytes_of(path("a.vrec"));
+  bytes[bytes.size() - 1000] ^= 1;
+  const std::string bad = write("bad.vrec", bytes);
+  const ProcessResult refused = vindu({"replay", bad});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("bad.vrec, byte "));
+  EXPECT_THAT(refused.err, HasSubstr("--skip-damage"));
+  const ProcessResult read = vindu({"replay", bad, "--skip-damage"});
+  EXPECT_EQ(read.exit_code, 0);
+  EXPECT_THAT(read.out, ContainsRegex("[0-9]+ damaged bytes skipped"));
+}
+
+TEST_F(ReplayCommand, SaysWhatIsWrongWithTextAndWhatToDo) {
+  const ProcessResult bad = vindu({"replay", write("bad.txt", "left 1 33\nleft 2 3x\n")});
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_THAT(bad.err, HasSubstr("bad.txt:2: \"3x\" is not a byte"));
+  const ProcessResult none = vindu({"replay", write("none.txt", "# nothing\n")});
+  EXPECT_THAT(none.err, HasSubstr("holds no reports"));
+  const ProcessResult clocks =
+      vindu({"replay", write("clocks.txt", "a 1000 33\nb 1700000000000000000 33\n")});
+  EXPECT_THAT(clocks.err, HasSubstr("one clock"));
+}
+
+TEST_F(ReplayCommand, NeedsAWallToTrackWithWhereTheRecordingHoldsNone) {
+  const std::string text = write("a.txt", "left 1000 33\n");
+  const ProcessResult without = vindu({"replay", text, "--track"});
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_THAT(without.err, HasSubstr("--wall FILE"));
+  const ProcessResult strange =
+      vindu({"replay", write("b.txt", "elsewhere 1000 33\n"), "--track", "--wall", kWall});
+  EXPECT_THAT(strange.err, HasSubstr("none of its devices is a camera"));
+}
+
+TEST_F(ReplayCommand, IsCalledWrongWithTwoFormsAtOnce) {
+  EXPECT_EQ(vindu({"replay", "a.vrec", "--text", "--json"}).exit_code, 2);
+  EXPECT_EQ(vindu({"replay"}).exit_code, 2);
+}
+
+TEST_F(ReplayCommand, ReadsWhatRecordWroteUntilItWasInterrupted) {
+  const ProcessResult recorded = run({"timeout", "--signal=INT", "4", VINDU_PROGRAM, "record",
+                                      "--out", path("a.vrec"), "--rotate-mb", "0.012"});
+  EXPECT_THAT(recorded.out, StartsWith(path("a.vrec")));
+  EXPECT_THAT(files_in("."), Contains("a.1.vrec"));
+  const ProcessResult result = vindu({"replay", path("a.vrec")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr(kWall));
+  EXPECT_THAT(result.err, Not(HasSubstr("warning")));
+}
+
+TEST_F(ReplayCommand, ReadsWhatRecordWroteUntilItWasKilled) {
+  run({"timeout", "--signal=KILL", "4", VINDU_PROGRAM, "record", "--out", path("a.vrec")});
+  const ProcessResult result = vindu({"replay", path("a.vrec"), "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(lines_of(result.out).size(), 10u);
+}
+
+TEST_F(ReplayCommand, LeavesARecordingAloneThatRecordWouldOverwrite) {
+  const std::string file = write("a.vrec", "precious");
+  const ProcessResult result = vindu({"record", "--seconds", "1", "--out", file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(file));
+  EXPECT_EQ(bytes_of(file), "precious");
+}
+
+}  // namespace
+}  // namespace vindu
