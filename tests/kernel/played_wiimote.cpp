@@ -1,0 +1,110 @@
+#include "tests/kernel/played_wiimote.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+namespace vindu::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+Bytes asset(const std::string& name) {
+  std::ifstream file(VINDU_SOURCE_DIR "/assets/wiimote/" + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string first_line(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return line;
+}
+
+std::string find_input_node(const std::string& name) {
+  for (const auto& entry : fs::directory_iterator("/sys/class/input")) {
+    const std::string node = entry.path().filename();
+    if (node.starts_with("event") && first_line(entry.path() / "device/name") == name)
+      return "/dev/input/" + node;
+  }
+  return {};
+}
+
+}  // namespace
+
+SensorView four_spots(Time time) {
+  const auto step = time.time_since_epoch() / milliseconds(10);
+  SensorView view;
+  for (const int row_px : kDotRows_px)
+    view.spots.push_back({100.0 + static_cast<double>(step % 800), 1.0 * row_px, 0.2});
+  return view;
+}
+
+PlayedWiimote::PlayedWiimote(std::uint16_t product_id)
+    : thread_([this, product_id](const std::stop_token& stop) { run(stop, product_id); }) {}
+
+void PlayedWiimote::run(const std::stop_token& stop, std::uint16_t product_id) {
+  const bool tr = product_id == 0x0330;
+  const MonotonicClock clock;
+  WiimoteEmulator wiimote({.eeprom = asset("eeprom.bin"), .motion_plus = tr, .start = clock.now()},
+                          four_spots);
+  const HidInfo identity{{}, 0x057e, product_id, "Nintendo RVL-CNT-01", kAddress};
+  UhidDevice device(identity, asset("rdesc.bin"));
+  const auto tap = [this](std::span<const std::uint8_t> report) {
+    const std::lock_guard lock(mutex_);
+    outputs_.emplace_back(report.begin(), report.end());
+  };
+  while (!stop.stop_requested()) {
+    serve(wiimote, device, clock.now() + milliseconds(5), tap);
+    std::unique_lock lock(mutex_);
+    const auto wishes = std::exchange(wishes_, {});
+    lock.unlock();
+    for (const auto& wish : wishes) wish(wiimote);
+  }
+}
+
+std::vector<Bytes> PlayedWiimote::take_outputs() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(outputs_, {});
+}
+
+void PlayedWiimote::plug_extension(bool plugged) {
+  const std::lock_guard lock(mutex_);
+  wishes_.push_back([plugged](WiimoteEmulator& wiimote) {
+    wiimote.plug_extension(plugged, MonotonicClock().now());
+  });
+}
+
+std::string input_node(const std::string& name) {
+  for (int tries = 0; tries < 100; ++tries) {
+    const std::string node = find_input_node(name);
+    if (!node.empty()) return node;
+    std::this_thread::sleep_for(milliseconds(100));
+  }
+  return {};
+}
+
+int battery_percent() {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator("/sys/class/power_supply", error)) {
+    if (!entry.path().filename().string().starts_with("wiimote_battery_")) continue;
+    std::ifstream capacity(entry.path() / "capacity");
+    int percent = -1;
+    if (capacity >> percent) return percent;
+  }
+  return -1;
+}
+
+OpenFile::OpenFile(const std::string& name, int flags)
+    : file_(::open(name.c_str(), flags | O_CLOEXEC)) {}
+
+OpenFile::~OpenFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+}  // namespace vindu::testing
