@@ -63,6 +63,22 @@ install_packages() {
   "${apt[@]}" install -y --no-install-recommends "$@" >>"$root/build/apt.log" 2>&1
 }
 
+# need_kernel: the kernel that Debian makes for cloud machines, unpacked in build/linux and never
+# installed. It has the modules that tests/kernel needs, and starts in seconds under QEMU.
+need_kernel() {
+  local folder=$root/build/linux log=$root/build/linux.log package
+  compgen -G "$folder/boot/vmlinuz-*" >/dev/null && return
+  package=$(apt-cache depends linux-image-cloud-amd64 2>/dev/null |
+    sed -n 's/^ *Depends: \(linux-image-[0-9].*\)/\1/p' | head -n 1)
+  [[ -n $package ]] || die "apt knows no package linux-image-cloud-amd64; as root: apt-get update"
+  say "Fetching $package (27 MB) and unpacking it to build/linux ..."
+  rm -rf "$folder" "$folder.new" && mkdir -p "$folder.new"
+  (cd "$folder.new" && apt-get -q download "$package" && dpkg-deb -x ./*.deb . &&
+    rm ./*.deb && mv "$folder.new" "$folder") >"$log" 2>&1 && return
+  cat "$log" >&2
+  die "$package cannot be had. If it was not found, as root: apt-get update"
+}
+
 # jobs: one for each processor, but at most one for every 1.5 GiB of memory that is free.
 jobs() {
   local by_memory

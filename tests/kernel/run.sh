@@ -69,7 +69,7 @@ mount -t proc proc /proc
 mount -t sysfs sys /sys
 mount -t devtmpfs dev /dev
 for module in $modules; do modprobe \$module || echo "no module \$module"; done
-/program
+TERM=dumb /program
 echo "exit code \$?"
 poweroff -f
 END
