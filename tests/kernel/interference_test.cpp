@@ -16,7 +16,7 @@
 namespace vindu::testing {
 namespace {
 
-using std::chrono::milliseconds;
+using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 
 /// "16 04 b0 00 30 01 01": hex, without the zeros that fill up a write to memory.
@@ -37,7 +37,7 @@ class HidWiimote : public ::testing::Test {
   std::vector<std::string> written() {
     std::vector<std::string> reports;
     for (int quiet = 0; quiet < 5; ++quiet) {
-      std::this_thread::sleep_for(milliseconds(100));
+      std::this_thread::sleep_for(100ms);
       for (const Bytes& report : wiimote_.take_outputs()) {
         if (is_motion_plus_poll(hex(report))) continue;
         reports.push_back(hex(report));

@@ -12,7 +12,7 @@ namespace vindu::testing {
 namespace {
 
 namespace fs = std::filesystem;
-using std::chrono::milliseconds;
+using namespace std::chrono_literals;
 
 Bytes asset(const std::string& name) {
   std::ifstream file(VINDU_SOURCE_DIR "/assets/wiimote/" + name, std::ios::binary);
@@ -38,7 +38,7 @@ std::string find_input_node(const std::string& name) {
 }  // namespace
 
 SensorView four_spots(Time time) {
-  const auto step = time.time_since_epoch() / milliseconds(10);
+  const auto step = time.time_since_epoch() / 10ms;
   SensorView view;
   for (const int row_px : kDotRows_px)
     view.spots.push_back({100.0 + static_cast<double>(step % 800), 1.0 * row_px, 0.2});
@@ -53,14 +53,15 @@ void PlayedWiimote::run(const std::stop_token& stop, std::uint16_t product_id) {
   const MonotonicClock clock;
   WiimoteEmulator wiimote({.eeprom = asset("eeprom.bin"), .motion_plus = tr, .start = clock.now()},
                           four_spots);
-  const HidInfo identity{{}, 0x057e, product_id, "Nintendo RVL-CNT-01", kAddress};
+  const HidInfo identity{
+      {}, 0x057e, product_id, tr ? "Nintendo RVL-CNT-01-TR" : "Nintendo RVL-CNT-01", kAddress};
   UhidDevice device(identity, asset("rdesc.bin"));
   const auto tap = [this](std::span<const std::uint8_t> report) {
     const std::lock_guard lock(mutex_);
     outputs_.emplace_back(report.begin(), report.end());
   };
   while (!stop.stop_requested()) {
-    serve(wiimote, device, clock.now() + milliseconds(5), tap);
+    serve(wiimote, device, clock.now() + 5ms, tap);
     std::unique_lock lock(mutex_);
     const auto wishes = std::exchange(wishes_, {});
     lock.unlock();
@@ -84,7 +85,7 @@ std::string input_node(const std::string& name) {
   for (int tries = 0; tries < 100; ++tries) {
     const std::string node = find_input_node(name);
     if (!node.empty()) return node;
-    std::this_thread::sleep_for(milliseconds(100));
+    std::this_thread::sleep_for(100ms);
   }
   return {};
 }
