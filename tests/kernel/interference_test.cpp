@@ -2,13 +2,11 @@
 // model of it (HidWiimoteKernel) and behind the driver's way to survive it. Runs in QEMU; see
 // run.sh.
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <linux/hidraw.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 
 #include "tests/kernel/played_wiimote.h"
@@ -16,36 +14,11 @@
 namespace vindu::testing {
 namespace {
 
-using namespace std::chrono_literals;
 using ::testing::ElementsAre;
-
-/// "16 04 b0 00 30 01 01": hex, without the zeros that fill up a write to memory.
-std::string hex(Bytes report) {
-  if (report.at(0) == 0x16) report.resize(std::min<std::size_t>(report.size(), 6u + report.at(5)));
-  return fmt::format("{:02x}", fmt::join(report, " "));
-}
-
-/// It looks for a Motion Plus every 4 s, at any time.
-bool is_motion_plus_poll(const std::string& report) {
-  return report == "17 04 a4 00 fa 00 06" || report == "16 04 a6 00 f0 01 55" ||
-         report == "17 04 a6 00 fa 00 06";
-}
 
 class HidWiimote : public ::testing::Test {
  protected:
-  /// What it wrote until it was silent for half a second, but for its polls.
-  std::vector<std::string> written() {
-    std::vector<std::string> reports;
-    for (int quiet = 0; quiet < 5; ++quiet) {
-      std::this_thread::sleep_for(100ms);
-      for (const Bytes& report : wiimote_.take_outputs()) {
-        if (is_motion_plus_poll(hex(report))) continue;
-        reports.push_back(hex(report));
-        quiet = 0;
-      }
-    }
-    return reports;
-  }
+  std::vector<std::string> written() { return written_to(wiimote_); }
 
   void wait_for_its_start() {
     ASSERT_NE(input_node("Nintendo Wii Remote IR"), "");

@@ -1,8 +1,10 @@
 #include "tests/kernel/played_wiimote.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -48,11 +50,16 @@ SensorView four_spots(Time time) {
 PlayedWiimote::PlayedWiimote(std::uint16_t product_id)
     : thread_([this, product_id](const std::stop_token& stop) { run(stop, product_id); }) {}
 
+EmulatorOptions PlayedWiimote::options(std::uint16_t product_id) {
+  return {.eeprom = asset("eeprom.bin"),
+          .motion_plus = product_id == 0x0330,
+          .start = MonotonicClock().now()};
+}
+
 void PlayedWiimote::run(const std::stop_token& stop, std::uint16_t product_id) {
   const bool tr = product_id == 0x0330;
   const MonotonicClock clock;
-  WiimoteEmulator wiimote({.eeprom = asset("eeprom.bin"), .motion_plus = tr, .start = clock.now()},
-                          four_spots);
+  WiimoteEmulator wiimote(options(product_id), four_spots);
   const HidInfo identity{
       {}, 0x057e, product_id, tr ? "Nintendo RVL-CNT-01-TR" : "Nintendo RVL-CNT-01", kAddress};
   UhidDevice device(identity, asset("rdesc.bin"));
@@ -79,6 +86,29 @@ void PlayedWiimote::plug_extension(bool plugged) {
   wishes_.push_back([plugged](WiimoteEmulator& wiimote) {
     wiimote.plug_extension(plugged, MonotonicClock().now());
   });
+}
+
+std::string hex(Bytes report) {
+  if (report.at(0) == 0x16) report.resize(std::min<std::size_t>(report.size(), 6u + report.at(5)));
+  return fmt::format("{:02x}", fmt::join(report, " "));
+}
+
+bool is_motion_plus_poll(const std::string& report) {
+  return report == "17 04 a4 00 fa 00 06" || report == "16 04 a6 00 f0 01 55" ||
+         report == "17 04 a6 00 fa 00 06";
+}
+
+std::vector<std::string> written_to(PlayedWiimote& wiimote) {
+  std::vector<std::string> reports;
+  for (int quiet = 0; quiet < 5; ++quiet) {
+    std::this_thread::sleep_for(100ms);
+    for (const Bytes& report : wiimote.take_outputs()) {
+      if (is_motion_plus_poll(hex(report))) continue;
+      reports.push_back(hex(report));
+      quiet = 0;
+    }
+  }
+  return reports;
 }
 
 std::string input_node(const std::string& name) {

@@ -30,6 +30,8 @@ class PlayedWiimote {
   std::vector<Bytes> take_outputs();
   void plug_extension(bool plugged);
 
+  static EmulatorOptions options(std::uint16_t product_id);
+
  private:
   void run(const std::stop_token& stop, std::uint16_t product_id);
 
@@ -38,6 +40,15 @@ class PlayedWiimote {
   std::vector<std::function<void(WiimoteEmulator&)>> wishes_;
   std::jthread thread_;
 };
+
+/// "16 04 b0 00 30 01 01": hex, without the zeros that fill up a write to memory.
+std::string hex(Bytes report);
+
+/// hid-wiimote looks for a Motion Plus every 4 s, at any time.
+bool is_motion_plus_poll(const std::string& report);
+
+/// What was written to it until nothing came for half a second, but for those polls.
+std::vector<std::string> written_to(PlayedWiimote& wiimote);
 
 /// The node in /dev/input of this name, once it is there; empty after 10 s.
 std::string input_node(const std::string& name);

@@ -105,6 +105,13 @@ class Driver : public ::testing::TestWithParam<std::uint16_t> {
     });
   }
 
+  static LiveWiimoteOptions driver_options() {
+    LiveWiimoteOptions options;
+    options.name = "camera";
+    options.address = kAddress;
+    return options;
+  }
+
   static std::string name(const std::string& part) { return "Nintendo Wii Remote" + part; }
 
   void print() const {
@@ -124,8 +131,7 @@ class Driver : public ::testing::TestWithParam<std::uint16_t> {
   std::optional<PlayedWiimote> wiimote_;
   std::unique_ptr<HidBus> bus_ = make_hidapi_bus(clock_);
   WiimoteClaims claims_;
-  LiveWiimote driver_{
-      *bus_, clock_, claims_, {.name = "camera", .address = kAddress, .settings = {}}};
+  LiveWiimote driver_{*bus_, clock_, claims_, driver_options()};
   std::optional<OpenFile> open_;
   std::optional<Time> last_;
   std::map<std::string, Figures> figures_;
