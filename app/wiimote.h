@@ -40,5 +40,6 @@ std::vector<std::string> holders_of(const std::string& path);
 void add_wiimote_list(CLI::App& wiimote, Action& chosen);
 void add_wiimote_identify(CLI::App& wiimote, Action& chosen);
 void add_wiimote_watch(CLI::App& wiimote, Action& chosen);
+void add_wiimote_emulate(CLI::App& wiimote, Action& chosen);
 
 }  // namespace vindu::app
