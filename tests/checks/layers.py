@@ -25,6 +25,7 @@ LAYERS = {
 LIBRARIES = {
     "OpenCV": (r"opencv2/", r"tracker/.*"),
     "zlib": (r"zlib\.h", r"tracker/.*"),
+    "sdbus-c++": (r"sdbus-c\+\+/", r"tracker/.*"),
     "GLFW": (r"GLFW/", r"renderer/.*"),
     "EGL": (r"EGL/", r"renderer/.*"),
     "epoxy": (r"epoxy/|GL/|GLES\d?/", r"renderer/.*"),
