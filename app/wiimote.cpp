@@ -69,17 +69,20 @@ std::vector<std::string> holders_of(const std::string& path) {
 }
 
 void add_wiimote(CLI::App& parent, Action& chosen) {
-  CLI::App* app = parent.add_subcommand("wiimote", "See to Wiimotes: list, identify, watch, emulate");
+  CLI::App* app = parent.add_subcommand(
+      "wiimote", "See to Wiimotes: list, identify, watch, pair, emulate");
   app->require_subcommand(1);
   add_wiimote_list(*app, chosen);
   add_wiimote_identify(*app, chosen);
   add_wiimote_watch(*app, chosen);
   add_wiimote_emulate(*app, chosen);
+  add_wiimote_pair(*app, chosen);
   app->footer(
       "\nExamples:\n"
       "  vindu wiimote list\n"
       "  vindu wiimote identify 2\n"
-      "  vindu wiimote watch --emulated\n");
+      "  vindu wiimote watch --emulated\n"
+      "  vindu wiimote pair\n");
 }
 
 }  // namespace vindu::app

@@ -41,5 +41,6 @@ void add_wiimote_list(CLI::App& wiimote, Action& chosen);
 void add_wiimote_identify(CLI::App& wiimote, Action& chosen);
 void add_wiimote_watch(CLI::App& wiimote, Action& chosen);
 void add_wiimote_emulate(CLI::App& wiimote, Action& chosen);
+void add_wiimote_pair(CLI::App& wiimote, Action& chosen);
 
 }  // namespace vindu::app
