@@ -163,6 +163,14 @@ TEST_F(PairTest, OneThatIsKnownWithoutABondIsRemovedAndPairedAnew) {
   EXPECT_TRUE(results[0].ready()) << results[0].trouble;
 }
 
+TEST_F(PairTest, OneThatIsKnownWithoutABondIsNotTakenForOneInDiscovery) {
+  bluez_.add_adapter("hci0");
+  bluez_.add_device("hci0", kWiimote, kName);
+
+  EXPECT_THAT(pair({.patience = 1s}), IsEmpty());
+  EXPECT_THAT(bluez_wiimotes().wiimotes, IsEmpty());
+}
+
 TEST_F(PairTest, ABondedOneInDiscoveryIsConnectedAndKeepsItsBond) {
   bluez_.add_adapter("hci0");
   bluez_.add_bonded("hci0", kWiimote);
