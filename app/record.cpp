@@ -2,7 +2,6 @@
 // reader thread a camera.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "app/cameras.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/stop_signals.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/resources.h"
@@ -27,29 +27,6 @@ struct RecordCommand {
   std::optional<double> seconds;
   double rotate_mb = 100;
   std::uint64_t seed = 52;
-};
-
-/// SIGINT and SIGTERM wait to be asked for while this lives, in threads that start after it too.
-class StopSignals {
- public:
-  StopSignals() {
-    sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
-    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
-  }
-  ~StopSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-
-  /// Whether one came within this time, which is less than a second.
-  bool came_within(Duration time) const {
-    const timespec limit{0, static_cast<long>(time.count())};
-    return sigtimedwait(&signals_, nullptr, &limit) > 0;
-  }
-
- private:
-  sigset_t signals_{};
-  sigset_t before_{};
 };
 
 std::string text_of_file(const std::string& file) {
