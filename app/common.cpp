@@ -1,5 +1,7 @@
 #include "app/common.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -68,6 +70,18 @@ CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value) {
 
 Site load_site(const std::string& wall_file) {
   return read_site(wall_file.empty() ? find_asset("walls/tromso.toml") : wall_file);
+}
+
+std::string json_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(letter) < 0x20)
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(letter));
+    else
+      quoted += letter;
+  }
+  return quoted + "\"";
 }
 
 void make_folder(const std::string& folder) {

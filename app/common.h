@@ -23,6 +23,9 @@ CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value);
 /// The wall file, or the Tromsø wall that comes with Vindu when the name is empty.
 Site load_site(const std::string& wall_file);
 
+/// As a JSON string, quotes included.
+std::string json_text(const std::string& text);
+
 /// Makes the folder, with its parents. Throws Error when that fails.
 void make_folder(const std::string& folder);
 

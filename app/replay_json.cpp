@@ -4,24 +4,13 @@
 
 #include <cmath>
 
+#include "app/common.h"
 #include "tracker/wiimote/report.h"
 
 namespace vindu::app {
 namespace {
 
 std::int64_t nanoseconds(Time time) { return Duration(time.time_since_epoch()).count(); }
-
-std::string json_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(letter) < 0x20)
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(letter));
-    else
-      quoted += letter;
-  }
-  return quoted + "\"";
-}
 
 std::string json_vec(const Vec3& v) { return fmt::format("[{},{},{}]", v.x(), v.y(), v.z()); }
 

@@ -8,6 +8,7 @@
 
 #include "app/common.h"
 #include "core/error.h"
+#include "tracker/wiimote/bluez.h"
 #include "tracker/wiimote/find.h"
 #include "tracker/wiimote/hidapi_bus.h"
 
@@ -50,7 +51,7 @@ HidInfo choose_wiimote(HidBus& bus, const std::string& which) {
     throw Error({fmt::format("there are {} Wiimotes", found.size()), "number " + which, remedy});
   }
   for (const HidInfo& info : found)
-    if (info.address == which) return info;
+    if (same_address(info.address, which)) return info;
   throw Error({"no such Wiimote is connected", which, remedy});
 }
 
@@ -69,8 +70,8 @@ std::vector<std::string> holders_of(const std::string& path) {
 }
 
 void add_wiimote(CLI::App& parent, Action& chosen) {
-  CLI::App* app = parent.add_subcommand(
-      "wiimote", "See to Wiimotes: list, identify, watch, pair, emulate");
+  CLI::App* app =
+      parent.add_subcommand("wiimote", "See to Wiimotes: list, identify, watch, pair, emulate");
   app->require_subcommand(1);
   add_wiimote_list(*app, chosen);
   add_wiimote_identify(*app, chosen);

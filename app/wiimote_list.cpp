@@ -7,8 +7,11 @@
 #include <array>
 #include <cstdio>
 
+#include "app/common.h"
 #include "app/wiimote.h"
 #include "core/error.h"
+#include "core/log.h"
+#include "tracker/wiimote/bluez.h"
 #include "tracker/wiimote/commands.h"
 #include "tracker/wiimote/find.h"
 
@@ -22,22 +25,46 @@ struct Finding {
   HidInfo info;
   std::string state;  ///< "ready", or what hinders it, with the remedy
   std::optional<StatusReport> status;
+  std::string adapter;  ///< "hci0", where BlueZ knows it
 };
 
 Finding examine(HidBus& bus, Clock& clock, const HidInfo& info) {
+  Finding finding{.info = info, .state = "ready", .status = {}, .adapter = {}};
   const std::vector<std::string> holders = holders_of(info.path);
-  if (!holders.empty())
-    return {info, fmt::format("in use by {}: end that first to use it", fmt::join(holders, ", ")),
-            std::nullopt};
+  if (!holders.empty()) {
+    finding.state = fmt::format("in use by {}: end that first", fmt::join(holders, ", "));
+    return finding;
+  }
   try {
     const auto device = bus.open(info.path);
-    const auto status = probe(*device, clock, milliseconds(600));
-    if (status) return {info, "ready", status};
-    if (kind_of(info) == WiimoteKind::adapter) return {info, "an empty slot", std::nullopt};
-    return {info, "does not answer: press a button on it, or take its batteries out for a moment",
-            std::nullopt};
+    finding.status = probe(*device, clock, milliseconds(600));
+    if (!finding.status)
+      finding.state = kind_of(info) == WiimoteKind::adapter
+                          ? "an empty slot"
+                          : "does not answer: press a button on it, or take out its batteries";
   } catch (const Error& error) {
-    return {info, error.what(), std::nullopt};
+    finding.state = error.what();
+  }
+  return finding;
+}
+
+/// What Bluetooth knows: adds the adapters, and the Wiimotes that are not connected.
+void add_bluetooth(const BluezView& view, std::vector<Finding>& findings) {
+  for (const BluezDevice& known : view.wiimotes) {
+    const auto found = std::ranges::find_if(findings, [&](const Finding& finding) {
+      return same_address(finding.info.address, known.address);
+    });
+    if (found != findings.end()) {
+      if (known.connected) found->adapter = known.adapter;
+      continue;
+    }
+    const char* state = !known.paired     ? "not bonded: vindu wiimote pair"
+                        : known.connected ? "connected, but no HID device: vindu wiimote pair"
+                                          : "bonded, not connected: press a button on it";
+    findings.push_back({.info = {"", 0x057e, 0x0306, known.name, known.address},
+                        .state = state,
+                        .status = {},
+                        .adapter = known.adapter});
   }
 }
 
@@ -50,36 +77,27 @@ std::string battery_text(const std::optional<StatusReport>& status) {
 void print_table(const std::vector<Finding>& findings) {
   if (findings.empty()) {
     std::puts(
-        "No Wiimote is connected. Press a button on a paired one; pair a new one in the desktop's\n"
-        "Bluetooth settings by its red button. Without one: vindu wiimote watch --emulated");
+        "No Wiimote is known here. Pair one: vindu wiimote pair. Without any hardware:\n"
+        "vindu wiimote watch --emulated");
     return;
   }
-  fmt::print("{:>2}  {:<17}  {:<13}  {:<14}  {:<9}  {}\n", "", "address", "kind", "device",
-             "battery", "state");
+  constexpr const char* kLine = "{:>2}  {:<17}  {:<13}  {:<7}  {:<14}  {:<9}  {}\n";
+  fmt::print(kLine, "", "address", "kind", "adapter", "device", "battery", "state");
   int number = 0;
   for (const Finding& finding : findings)
-    fmt::print("{:>2}  {:<17}  {:<13}  {:<14}  {:<9}  {}\n", ++number, finding.info.address,
-               name_of(kind_of(finding.info)), finding.info.path, battery_text(finding.status),
-               finding.state);
-}
-
-std::string quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) quoted += c;
-  }
-  return quoted + '"';
+    fmt::print(kLine, ++number, finding.info.address, name_of(kind_of(finding.info)),
+               finding.adapter, finding.info.path, battery_text(finding.status), finding.state);
 }
 
 void print_json(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings) {
     const std::string battery =
         finding.status ? fmt::format("{:.3f}", battery_charge(finding.status->battery)) : "null";
-    fmt::print(R"({{"address":{},"kind":{},"path":{},"battery":{},"state":{}}})"
+    fmt::print(R"({{"address":{},"kind":{},"adapter":{},"path":{},"battery":{},"state":{}}})"
                "\n",
-               quoted(finding.info.address), quoted(name_of(kind_of(finding.info))),
-               quoted(finding.info.path), battery, quoted(finding.state));
+               json_text(finding.info.address), json_text(name_of(kind_of(finding.info))),
+               json_text(finding.adapter), json_text(finding.info.path), battery,
+               json_text(finding.state));
   }
 }
 
@@ -88,6 +106,13 @@ int list(bool emulated, bool json) {
   std::vector<Finding> findings;
   for (const HidInfo& info : find_wiimotes(devices.bus()))
     findings.push_back(examine(devices.bus(), devices.clock(), info));
+  if (!emulated) {
+    const BluezView view = bluez_wiimotes();
+    add_bluetooth(view, findings);
+    for (const std::string& warning : adapter_warnings(view.wiimotes))
+      log_warning("wiimote", warning);
+    if (!view.trouble.empty()) log_warning("Bluetooth", view.trouble);
+  }
   json ? print_json(findings) : print_table(findings);
   return 0;
 }

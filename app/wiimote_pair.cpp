@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/common.h"
 #include "app/wiimote.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -22,23 +23,14 @@ struct Options {
   bool json = false;
 };
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) result += c;
-  }
-  return result + '"';
-}
-
 void print_json(const PairResult& result) {
   const BluezDevice& device = result.device;
   fmt::print(
       R"({{"address":{},"name":{},"adapter":{},"bonded":{},"connected":{},"ready":{},"trouble":{},)"
       R"("remedy":{}}})"
       "\n",
-      quoted(device.address), quoted(device.name), quoted(device.adapter), device.paired,
-      device.connected, result.ready(), quoted(result.trouble), quoted(result.remedy));
+      json_text(device.address), json_text(device.name), json_text(device.adapter), device.paired,
+      device.connected, result.ready(), json_text(result.trouble), json_text(result.remedy));
 }
 
 void print_line(const PairResult& result) {

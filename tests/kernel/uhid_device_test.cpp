@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 
@@ -68,9 +69,9 @@ Bytes part(const Bytes& bytes, std::size_t at, std::size_t size) {
 
 /// Type in four bytes, then `body`, then zeros.
 Bytes event(std::uint8_t type, const Bytes& body, std::size_t size) {
-  Bytes bytes = {type, 0, 0, 0};
-  bytes.insert(bytes.end(), body.begin(), body.end());
-  bytes.resize(size);
+  Bytes bytes(size);
+  bytes[0] = type;
+  std::ranges::copy(body, bytes.begin() + 4);
   return bytes;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "tracker/wiimote/bluez.h"
 #include "tracker/wiimote/find.h"
 
 namespace vindu {
@@ -79,7 +80,7 @@ std::unique_ptr<HidDevice> LiveWiimote::find_device(HidInfo& info, std::string& 
       any ? "no Wiimote is connected: press a button on a paired one, or run vindu wiimote pair"
           : "the Wiimote " + options_.address + " is not connected: press a button on it";
   for (const HidInfo& found : find_wiimotes(bus_)) {
-    if (!any && found.address != options_.address) continue;
+    if (!any && !same_address(found.address, options_.address)) continue;
     if (!claims_.claim(found.path)) continue;
     try {
       info = found;
