@@ -8,8 +8,8 @@
 
 #include "core/clock.h"
 #include "core/pose.h"
-#include "core/site.h"
 #include "core/random.h"
+#include "core/site.h"
 
 namespace vindu {
 
