@@ -11,9 +11,9 @@ namespace {
 
 /// d(red, green) / d(x, y) by central differences, where the code is linear over the neighbourhood.
 std::optional<Eigen::Matrix2f> gradient(const Levels& image, int x, int y) {
-  const Eigen::Vector3f here = image.at(x, y);
-  const Eigen::Vector3f left = image.at(x - 1, y), right = image.at(x + 1, y);
-  const Eigen::Vector3f above = image.at(x, y - 1), below = image.at(x, y + 1);
+  const Eigen::Vector3f& here = image.at(x, y);
+  const Eigen::Vector3f &left = image.at(x - 1, y), &right = image.at(x + 1, y);
+  const Eigen::Vector3f &above = image.at(x, y - 1), &below = image.at(x, y + 1);
   for (const Eigen::Vector3f& neighbour : {left, right, above, below})
     if (std::abs(neighbour.z() - here.z()) > 0.5f) return std::nullopt;  // another surface
   const Eigen::Vector2f bend_x = (left + right - 2 * here).head<2>(),

@@ -50,7 +50,7 @@ View view_with(const glm::dmat4& clip_from_wall, const Vec3& eye) {
 Mat3 homography(const std::array<Vec2, 4>& from, const std::array<Vec2, 4>& to) {
   Eigen::Matrix<double, 8, 8> equations;
   Eigen::Matrix<double, 8, 1> values;
-  for (int i = 0; i < 4; ++i) {
+  for (Eigen::Index i = 0; i < 4; ++i) {
     const double x = from[i].x(), y = from[i].y(), u = to[i].x(), v = to[i].y();
     equations.row(2 * i) << x, y, 1, 0, 0, 0, -u * x, -u * y;
     equations.row(2 * i + 1) << 0, 0, 0, x, y, 1, -v * x, -v * y;

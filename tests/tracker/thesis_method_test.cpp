@@ -29,7 +29,7 @@ Quat turned(double yaw_deg, double pitch_deg, double roll_deg) {
 // What a perfect camera would report, in the order that `order` gives.
 Observation perfect_view(const std::vector<CameraConfig>& cameras, int camera,
                          const HeadConfig& head, const Rigid3& room_from_head, Time arrival,
-                         std::vector<std::size_t> order = {2, 0, 1}) {
+                         const std::vector<std::size_t>& order = {2, 0, 1}) {
   const CameraModel model(cameras[static_cast<std::size_t>(camera)]);
   Observation seen{camera, arrival, {}};
   for (const std::size_t led : order) {
@@ -193,7 +193,7 @@ TEST(ThesisMethod, takes_a_camera_silent_for_over_100_ms_as_blind) {
 TEST(ThesisMethod, refuses_what_it_cannot_work_with) {
   const auto cameras = two_cameras();
   HeadConfig four, straight;
-  four.leds_in_head.push_back({0, 0.1, 0});
+  four.leds_in_head.emplace_back(0, 0.1, 0);
   straight.leds_in_head = {{-0.1, 0, 0}, {0, 0, 0}, {0.1, 0, 0}};
   EXPECT_THROW(ThesisMethod(cameras, four), Error);
   EXPECT_THROW(ThesisMethod(cameras, straight), Error);
