@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <mutex>
 
+#include "app/stop_signals.h"
 #include "app/wiimote.h"
 #include "app/wiimote_screen.h"
 #include "core/error.h"
@@ -18,8 +18,6 @@ namespace vindu::app {
 namespace {
 
 using std::chrono::milliseconds;
-
-volatile std::sig_atomic_t g_interrupted = 0;
 
 struct WatchOptions {
   std::vector<std::string> which;
@@ -77,6 +75,7 @@ class Watched {
   Watched(WiimoteBus& devices, WiimoteClaims& claims, const HidInfo& info, int number,
           const WatchOptions& options)
       : title_(fmt::format("{}  {}", number, info.address.empty() ? info.path : info.address)),
+        counted_at_(devices.clock().now()),
         live_(devices.bus(), devices.clock(), claims,
               {.camera = number - 1,
                .name = "Wiimote " + std::to_string(number),
@@ -86,12 +85,15 @@ class Watched {
                                 const WiimoteSample& sample) { take(number, json, sample); },
                .tap = {}}) {}
 
-  /// `span_s`: since the last call.
-  WatchedWiimote now(double span_s) {
+  WatchedWiimote seen_at(Time now) {
     while (live_.next(Time::max())) continue;  // nobody else takes them
+    const LiveWiimoteState state = live_.state();
     const std::lock_guard lock(mutex_);
-    const double rate = static_cast<double>(count_ - std::exchange(counted_, count_)) / span_s;
-    return {title_, live_.state(), data_, rate};
+    if (const double span_s = seconds(now - counted_at_); span_s >= 1) {
+      rate_ = static_cast<double>(count_ - std::exchange(counted_, count_)) / span_s;
+      counted_at_ = now;
+    }
+    return {title_, state, data_, rate_};
   }
 
  private:
@@ -107,6 +109,8 @@ class Watched {
   std::optional<DataReport> data_;
   std::uint64_t count_ = 0;
   std::uint64_t counted_ = 0;
+  Time counted_at_;
+  double rate_ = 0;
   LiveWiimote live_;  // last: its thread uses the others
 };
 
@@ -149,6 +153,7 @@ std::vector<HidInfo> chosen_devices(HidBus& bus, const WatchOptions& options) {
 }
 
 int watch(const WatchOptions& options) {
+  const StopSignals signals;
   WiimoteBus devices(options.emulated);
   WiimoteClaims claims;
   std::vector<std::unique_ptr<Watched>> watched;
@@ -159,19 +164,21 @@ int watch(const WatchOptions& options) {
   if (!options.json && !options.no_window && has_display())
     window.emplace(SizePx{560 * static_cast<int>(watched.size()), 574});
   const bool terminal = !options.json && isatty(STDOUT_FILENO);
-  const Duration period = window || terminal ? milliseconds(50) : std::chrono::seconds(1);
-  std::signal(SIGINT, [](int) { g_interrupted = 1; });
+  constexpr Duration kPeriod = milliseconds(50);
   const Time begin = devices.clock().now();
+  Time summed_up = begin;
   bool open = true;
-  while (open && !g_interrupted &&
-         (!options.seconds || seconds(devices.clock().now() - begin) < *options.seconds)) {
-    devices.clock().sleep_until(devices.clock().now() + period);
+  while (open && !signals.came_within(kPeriod)) {
+    const Time now = devices.clock().now();
+    if (options.seconds && seconds(now - begin) >= *options.seconds) break;
     std::vector<WatchedWiimote> seen;
-    for (const auto& each : watched) seen.push_back(each->now(seconds(period)));
+    for (const auto& each : watched) seen.push_back(each->seen_at(now));
     if (window) open = window->show(screen_picture(seen));
     if (terminal) fmt::print("\x1b[H\x1b[2J{}", screen_text(seen));
-    if (!terminal && !options.json)
+    if (!terminal && !options.json && now - summed_up >= std::chrono::seconds(1)) {
       for (const WatchedWiimote& each : seen) fmt::print("{}  {}\n", each.title, summary_of(each));
+      summed_up = now;
+    }
     std::fflush(stdout);
   }
   return 0;

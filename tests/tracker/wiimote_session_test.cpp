@@ -197,7 +197,7 @@ TEST_F(WiimoteSessionTest, TakesTheCameraBackFromSomebodyWhoSwitchesItOff) {
   connection.run(seconds(1));
   connection.all_gaps();
   EXPECT_EQ(connection.gaps(GapCause::camera).gaps, 1u);
-  EXPECT_LE(connection.gaps(GapCause::camera).longest, milliseconds(600));
+  EXPECT_LE(connection.gaps(GapCause::camera).longest, milliseconds(150));
   EXPECT_EQ(dots_of(*connection.samples.back().data.slots).size(), 1u);
   EXPECT_EQ(connection.session.health().trouble, "");
 }

@@ -155,7 +155,8 @@ void WiimoteSession::exchange_deserted(Time now) {
 void WiimoteSession::take_foreign_command(Time arrival) {
   if (!watching()) return;
   gaps_.suspect(GapCause::camera, arrival);
-  check_soon(arrival);
+  last_foreign_ = arrival;
+  next_check_ = arrival + kFirstCheck;
 }
 
 void WiimoteSession::check_soon(Time now) {
@@ -182,7 +183,9 @@ std::optional<WiimoteSample> WiimoteSession::take_data(const DataReport& data, T
   if (!data.camera_silent) silent_since_.reset();
   if (!expected && watching()) {
     gaps_.suspect(GapCause::mode, arrival);
-    check_soon(arrival);
+    // Whoever changes the camera sets the report last; one who still waits for answers is let be.
+    const bool others_at_work = arrival - last_foreign_ < kFirstCheck;
+    next_check_ = std::min(next_check_, others_at_work ? last_foreign_ + kFirstCheck : arrival);
   }
   if (expected) {
     if (data.camera_silent && !silent_since_) {  // nobody in view, or switched off?

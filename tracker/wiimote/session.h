@@ -96,6 +96,7 @@ class WiimoteSession {
   Time next_check_{};
   Time rest_until_{};
   Time last_report_{};
+  Time last_foreign_{};  // answer to somebody else
   std::optional<Time> silent_since_;  // the camera's bytes say nothing
   bool camera_lost_ = false;
   bool deaf_ = false;  // the device let the last commands go unanswered

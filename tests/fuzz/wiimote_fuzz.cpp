@@ -1,0 +1,49 @@
+// Any bytes as what a Wiimote sends: nothing crashes, every dot is on the sensor, and the driver
+// never waits for a time that has passed. For libFuzzer; tests/fuzz/run.sh builds and runs it.
+#include <cstdlib>
+#include <span>
+
+#include "tracker/wiimote/session.h"
+
+namespace {
+
+using namespace vindu;
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void check_parser(std::span<const std::uint8_t> bytes) {
+  const ParsedReport parsed = parse_report(bytes);
+  require(parsed.report.has_value() == (parsed.problem == ReportProblem::none));
+  const auto* data = parsed.report ? std::get_if<DataReport>(&*parsed.report) : nullptr;
+  if (!data || !data->slots) return;
+  for (const Dot& dot : dots_of(*data->slots))
+    require(dot.x_px >= 0 && dot.x_px <= 1023 && dot.y_px >= 0 && dot.y_px <= 767 &&
+            dot.size >= 0 && dot.size <= 15);
+}
+
+/// One byte of milliseconds, one of length, then so many of report; again and again.
+void check_session(std::span<const std::uint8_t> bytes) {
+  WiimoteSession session({});
+  Time now{};
+  while (bytes.size() >= 2) {
+    now += std::chrono::milliseconds(bytes[0]);
+    const std::size_t length = std::min<std::size_t>(bytes[1] % 65, bytes.size() - 2);
+    if (const auto sample = session.take(bytes.subspan(2, length), now))
+      require(sample->arrival == now);
+    bytes = bytes.subspan(2 + length);
+    int written = 0;
+    while (session.next_output(now)) require(++written < 20);
+    require(session.deadline() > now);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::span bytes(data, size);
+  check_parser(bytes);
+  check_session(bytes);
+  return 0;
+}
