@@ -102,6 +102,15 @@ TEST_F(LiveWiimoteTest, SaysWhatHindersItAndKeepsTrying) {
   EXPECT_THAT(left.state().trouble, HasSubstr("udev"));
 }
 
+TEST_F(LiveWiimoteTest, WarnsOfEmptyBatteries) {
+  EmulatedDeviceOptions nearly_empty;
+  nearly_empty.firmware.battery = 0x18;
+  add(100, nearly_empty);
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  EXPECT_TRUE(eventually([&] { return !left.state().trouble.empty(); }));
+  EXPECT_THAT(left.state().trouble, HasSubstr("batteries"));
+}
+
 TEST_F(LiveWiimoteTest, SkipsTheEmptySlotsOfAnAdapterAndOtherControllers) {
   bus_.add_strangers();
   bus_.add_dolphin_bar(1, dot_at(100));

@@ -18,6 +18,13 @@ constexpr Duration kPublish = milliseconds(100);
 /// A device that answers nothing and sends nothing for so long is opened anew.
 constexpr Duration kReopen = std::chrono::seconds(5);
 
+std::string trouble_of(const WiimoteSession& session) {
+  const WiimoteHealth health = session.health();
+  if (health.trouble.empty() && health.status && health.status->battery_low)
+    return "its batteries are nearly empty: change them";
+  return health.trouble;
+}
+
 }  // namespace
 
 bool WiimoteClaims::claim(const std::string& path) {
@@ -117,7 +124,7 @@ void LiveWiimote::read_until_gone(const std::stop_token& stop) {
     if (now - heard > kReopen) return;
     if (now - published < kPublish) continue;
     published = now;
-    publish(true, reader_->session().health().trouble);
+    publish(true, trouble_of(reader_->session()));
   }
 }
 
