@@ -13,9 +13,18 @@ namespace {
 
 using OpenVideo = decltype(&vindu_open_video);
 
-/// Never unloaded: its inputs may live as long as the program. Found by the program's run path.
+/// Where the program was installed to, else where it was built.
+std::filesystem::path module_file() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto installed = program.parent_path() / ".." / VINDU_INSTALLED_MODULES / "vindu_video.so";
+  if (std::filesystem::exists(installed, error)) return installed;
+  return std::filesystem::path(VINDU_BUILT_MODULES) / "vindu_video.so";
+}
+
+/// Never unloaded: its inputs may live as long as the program.
 OpenVideo load_module(const std::string& camera) {
-  void* module = dlopen("vindu_video.so", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void* module = dlopen(module_file().c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   void* function = module ? dlsym(module, "vindu_open_video") : nullptr;
   if (!function)
     throw Error({std::string("video input cannot be loaded: ") + dlerror(), "camera " + camera,
