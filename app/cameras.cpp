@@ -1,5 +1,7 @@
 #include "app/cameras.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "tracker/ir_camera/ir_camera.h"
 #include "tracker/wiimote/hidapi_bus.h"
@@ -17,11 +19,26 @@ WiimoteSettings wiimote_settings(const CameraConfig& camera, int number) {
   return {.format = format, .sensitivity = *sensitivity, .player = number + 1};
 }
 
+bool all_emulated(const Site& site) {
+  return std::ranges::all_of(site.cameras, [](const CameraConfig& camera) {
+    return camera.source == CameraSource::emulated;
+  });
+}
+
 Cameras::Cameras(const Site& site, const EmulatedRoom& room, Clock& clock,
                  const CamerasOptions& options)
     : clock_(clock), options_(options) {
   for (const CameraConfig& camera : site.cameras)
     sources_.push_back(open(camera, static_cast<int>(sources_.size()), room));
+}
+
+std::vector<CameraState> Cameras::states() const {
+  std::vector<CameraState> states;
+  for (const LiveWiimote* camera : live_) {
+    const LiveWiimoteState state = camera->state();
+    states.push_back({camera->name(), state.health.gaps, state.trouble});
+  }
+  return states;
 }
 
 std::unique_ptr<ObservationSource> Cameras::open(const CameraConfig& camera, int number,
@@ -38,7 +55,7 @@ std::unique_ptr<ObservationSource> Cameras::open(const CameraConfig& camera, int
   }
   auto device = room.connect(index);
   if (options_.tap) device = options_.tap(std::move(device), number);
-  return std::make_unique<WiimoteReader>(std::move(device), number, camera.name,
+  return std::make_unique<WiimoteReader>(std::move(device), number,
                                          wiimote_settings(camera, number));
 }
 

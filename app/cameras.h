@@ -22,6 +22,13 @@ struct CamerasOptions {
   std::function<std::unique_ptr<HidDevice>(std::unique_ptr<HidDevice>, int camera)> tap;
 };
 
+/// What the stream of a camera with a thread of its own is like.
+struct CameraState {
+  std::string name;
+  GapCounts gaps;
+  std::string trouble;  ///< now; empty when there is none
+};
+
 /// Room and clock must outlive this. Bound to one thread.
 class Cameras {
  public:
@@ -31,8 +38,7 @@ class Cameras {
 
   /// In the order of the site's cameras.
   const std::vector<std::unique_ptr<ObservationSource>>& sources() const { return sources_; }
-  /// Those that have a thread: how they are, for people to read.
-  const std::vector<const LiveWiimote*>& live() const { return live_; }
+  std::vector<CameraState> states() const;
 
  private:
   std::unique_ptr<ObservationSource> open(const CameraConfig& camera, int number,
@@ -47,6 +53,9 @@ class Cameras {
   std::vector<std::unique_ptr<ObservationSource>> sources_;
   std::vector<const LiveWiimote*> live_;
 };
+
+/// The simulated person is what the cameras see: nothing else moves the eye.
+bool all_emulated(const Site& site);
 
 /// What the wall file says of a Wiimote. Throws Error that names the camera.
 WiimoteSettings wiimote_settings(const CameraConfig& camera, int number);

@@ -47,6 +47,7 @@ class TrackedEye final : public EyeSource {
 
   EyeNow at(Time now) override;
   const Tracker& tracker() const { return tracker_; }
+  const Cameras& cameras() const { return cameras_; }
 
  private:
   Clock& clock_;

@@ -80,7 +80,7 @@ std::vector<WiimoteReader> open_readers(const ReplayCommand& command,
     readers.emplace_back(
         std::make_unique<ReplayHidDevice>(command.file, device.index, *pace.clock,
                                           ReplayOptions{pace.shift, command.damage()}),
-        static_cast<int>(*camera), name);
+        static_cast<int>(*camera));
   }
   if (readers.empty())
     throw Error({"none of its devices is a camera of the wall file", command.file,

@@ -31,8 +31,8 @@ void count(DeviceSummary& device, const RecordedReport& report) {
 void drive(const std::string& file, int index, DeviceSummary& device, DamagePolicy damage) {
   ManualClock clock;
   WiimoteReader reader(
-      std::make_unique<ReplayHidDevice>(file, index, clock, ReplayOptions{.damage = damage}), index,
-      device.name);
+      std::make_unique<ReplayHidDevice>(file, index, clock, ReplayOptions{.damage = damage}),
+      index);
   for (const Time until : {device.first, device.last})
     while (reader.next(until)) ++device.observations;
   device.refused = reader.session().health().refused;

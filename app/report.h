@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "app/cameras.h"
 #include "app/frame_loop.h"
 #include "simulator/person.h"
 #include "tracker/tracker.h"
@@ -22,6 +24,7 @@ struct RunReport {
   LoopResult loop;
   const Person* truth = nullptr;     ///< where there is one; the eye error is measured against it
   const Tracker* tracker = nullptr;  ///< where one ran
+  std::vector<CameraState> cameras;  ///< those that have a thread of their own
   double scale = 1;
   SizePx wall_px;
   std::string gl;

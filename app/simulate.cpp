@@ -56,16 +56,10 @@ struct Run {
   std::unique_ptr<EmulatedRoom> room;
   std::unique_ptr<EyeSource> eyes;
   const Tracker* tracker = nullptr;
+  const Cameras* cameras = nullptr;
   std::unique_ptr<Surface> surface;
   std::unique_ptr<WallRenderer> wall;
 };
-
-/// The simulated person is what the cameras see: nothing else moves the eye.
-bool all_emulated(const Site& site) {
-  return std::ranges::all_of(site.cameras, [](const CameraConfig& camera) {
-    return camera.source == CameraSource::emulated;
-  });
-}
 
 /// A camera's times are the real clock's.
 void check_clock(const SimulateOptions& options, const Site& site) {
@@ -127,6 +121,7 @@ std::unique_ptr<EyeSource> make_eyes(Run& run) {
       TrackedEyeOptions{.tracker = {options.method},
                         .cameras = {.threads = options.clock != "manual", .tap = {}}});
   run.tracker = &tracked->tracker();
+  run.cameras = &tracked->cameras();
   return tracked;
 }
 
@@ -304,6 +299,7 @@ int simulate(const SimulateOptions& options) {
       .loop = result,
       .truth = run.tracker && all_emulated(run.site) ? &run.room->person() : nullptr,
       .tracker = run.tracker,
+      .cameras = run.cameras ? run.cameras->states() : std::vector<CameraState>{},
       .scale = static_cast<double>(run.wall->layout().tiles.front().size.width) /
                run.site.wall.tiles.front().width_px,
       .wall_px = run.wall->layout().size,

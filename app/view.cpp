@@ -222,11 +222,13 @@ int view(const ViewOptions& options) {
         return !window->close_wanted();
       });
   const auto* tracked = dynamic_cast<const TrackedEye*>(eyes.get());
-  const RunReport report{.loop = result,
-                         .truth = tracked ? &room.person() : nullptr,
-                         .tracker = tracked ? &tracked->tracker() : nullptr,
-                         .wall_px = window->size(),
-                         .gl = gl_description()};
+  const RunReport report{
+      .loop = result,
+      .truth = tracked && all_emulated(viewer.site()) ? &room.person() : nullptr,
+      .tracker = tracked ? &tracked->tracker() : nullptr,
+      .cameras = tracked ? tracked->cameras().states() : std::vector<CameraState>{},
+      .wall_px = window->size(),
+      .gl = gl_description()};
   std::fputs(table_of(report).c_str(), stdout);
   return 0;
 }

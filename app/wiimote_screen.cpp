@@ -34,16 +34,6 @@ constexpr ButtonName kButtons[] = {{0x0100, "Left"},  {0x0200, "Right"}, {0x0400
                                    {0x0002, "One"},   {0x0004, "B"},     {0x0008, "A"},
                                    {0x0010, "Minus"}, {0x0080, "Home"}};
 
-std::string gaps_text(const GapCounts& counts) {
-  std::string text;
-  for (std::size_t cause = 0; cause < counts.size(); ++cause)
-    if (counts[cause].gaps)
-      text +=
-          fmt::format("{}{} {} (longest {:.0f} ms)", text.empty() ? "" : ", ", counts[cause].gaps,
-                      name_of(static_cast<GapCause>(cause)), 1e3 * seconds(counts[cause].longest));
-  return text.empty() ? "none" : text;
-}
-
 std::string acceleration_text(const WatchedWiimote& wiimote) {
   if (!wiimote.data || !wiimote.data->acceleration_raw) return "";
   const auto& raw = *wiimote.data->acceleration_raw;
@@ -121,7 +111,7 @@ void draw_panel(Image& image, int left, const WatchedWiimote& wiimote) {
                    battery_text(wiimote), wiimote.data ? text_of(wiimote.data->buttons) : "-"),
        {17, kBright});
   line(acceleration_text(wiimote), {17, kDim});
-  line("gaps: " + gaps_text(wiimote.state.health.gaps), {17, kDim});
+  line("gaps: " + text_of(wiimote.state.health.gaps), {17, kDim});
   if (!wiimote.state.trouble.empty()) line(wiimote.state.trouble, {15, kWarning});
 }
 
@@ -137,7 +127,7 @@ std::string text_of(Buttons buttons) {
 std::string summary_of(const WatchedWiimote& wiimote) {
   return fmt::format("{:.0f} reports/s  {}  buttons {}  {}  gaps: {}", wiimote.reports_per_s,
                      battery_text(wiimote), wiimote.data ? text_of(wiimote.data->buttons) : "-",
-                     acceleration_text(wiimote), gaps_text(wiimote.state.health.gaps));
+                     acceleration_text(wiimote), text_of(wiimote.state.health.gaps));
 }
 
 std::string screen_text(const std::vector<WatchedWiimote>& wiimotes) {

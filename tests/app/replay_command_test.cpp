@@ -43,8 +43,7 @@ class ReplayCommand : public AppTest {
     RecordingWriter writer(path(file), info);
     std::vector<WiimoteReader> readers;
     for (int i = 0; i < static_cast<int>(site.cameras.size()); ++i)
-      readers.emplace_back(std::make_unique<RecordingHidDevice>(room.connect(i), writer, i), i,
-                           site.cameras[i].name);
+      readers.emplace_back(std::make_unique<RecordingHidDevice>(room.connect(i), writer, i), i);
     Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
     std::vector<std::string> eyes;
     std::optional<PoseSample> said;

@@ -161,7 +161,7 @@ TEST_F(ClosedLoop, TrackedEyeCostsAFewPixels) {
   Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
   std::vector<WiimoteReader> readers;
   for (std::size_t camera = 0; camera < site.cameras.size(); ++camera)
-    readers.emplace_back(room.connect(camera), static_cast<int>(camera), site.cameras[camera].name);
+    readers.emplace_back(room.connect(camera), static_cast<int>(camera));
   Displacements all;
   for (int tick = 1; tick <= 6 * 60; ++tick) {
     clock.sleep_until(Time{} + tick * std::chrono::microseconds(16667));

@@ -26,7 +26,7 @@ Figures figures_for(Duration duration, const EmulatedRoomOptions& options) {
   const EmulatedRoom room(site, clock, options);
   std::vector<WiimoteReader> readers;
   for (std::size_t i = 0; i < site.cameras.size(); ++i)
-    readers.emplace_back(room.connect(i), static_cast<int>(i), site.cameras[i].name);
+    readers.emplace_back(room.connect(i), static_cast<int>(i));
   Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
   Figures run;
   double gap2_m2 = 0;

@@ -65,7 +65,7 @@ TEST(WiimoteReader, DrainsWhatHasArrivedInOrderAndSkipsReportsWithoutDots) {
                            {at_ms(2), {0x30, 0, 0}},
                            {at_ms(3), report_with_dot(20)},
                            {at_ms(9), report_with_dot(30)}}};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 1, "right");
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 1);
   std::vector<Observation> seen;
   while (const auto observation = reader.next(at_ms(5))) seen.push_back(*observation);
   ASSERT_EQ(seen.size(), 2u);
@@ -81,7 +81,7 @@ TEST(WiimoteReader, HandsOutAnObservationWithoutDotsWhenNoneAreInView) {
   Bytes none = report_with_dot(0);
   std::fill(none.begin() + 6, none.end(), 0xff);
   Script script{.events = {{at_ms(1), none}}};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0);
   const auto observation = reader.next(at_ms(5));
   ASSERT_TRUE(observation);
   EXPECT_THAT(observation->dots, IsEmpty());
@@ -89,14 +89,14 @@ TEST(WiimoteReader, HandsOutAnObservationWithoutDotsWhenNoneAreInView) {
 
 TEST(WiimoteReader, CountsReportsThatNobodyCanRead) {
   Script script{.events = {{at_ms(1), {0x33, 0, 0}}, {at_ms(2), {0x77}}}};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0);
   EXPECT_FALSE(reader.next(at_ms(5)));
   EXPECT_EQ(reader.session().health().refused, 2u);
 }
 
 TEST(WiimoteReader, BeginsWithAStatusRequestAndRepeatsWhatIsNotAnswered) {
   Script script{.events = {}};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0);
   reader.next(at_ms(1));
   EXPECT_THAT(script.written, ElementsAre(Bytes{0x15, 0x00}));
   reader.next(at_ms(600));
@@ -105,14 +105,14 @@ TEST(WiimoteReader, BeginsWithAStatusRequestAndRepeatsWhatIsNotAnswered) {
 
 TEST(WiimoteReader, SaysThatADeviceRefusesWhatIsWritten) {
   Script script{.events = {}, .accepts = false};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0);
   reader.next(at_ms(1));
   EXPECT_TRUE(reader.refuses());
 }
 
 TEST(WiimoteReader, EndsWhenTheDeviceIsGoneAndGoesOnWhenItIsBack) {
   Script script{.events = {{at_ms(0), report_with_dot(10)}, {at_ms(0), {}}}};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0, "left");
+  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0);
   EXPECT_TRUE(reader.next(at_ms(0)));
   EXPECT_FALSE(reader.next(at_ms(0)));
   EXPECT_TRUE(reader.gone());

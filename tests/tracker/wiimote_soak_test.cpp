@@ -42,7 +42,7 @@ class Soak {
   Soak()
       : device_(bus_.add({.info = {}, .firmware = {}, .link = {}, .kernel = KernelOptions{}},
                          walking_dot)) {
-    reader_.emplace(bus_.open(bus_.path(0)), 0, "soaked");
+    reader_.emplace(bus_.open(bus_.path(0)), 0);
   }
 
   void break_something() {

@@ -30,7 +30,6 @@ class Exchange {
  public:
   void begin(std::vector<Step> steps, const Patience& patience);
   void abandon() { steps_.clear(); }
-  bool idle() const { return steps_.empty(); }
 
   /// Offers a report that has come.
   Progress take(const Report& report);

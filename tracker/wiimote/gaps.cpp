@@ -1,5 +1,7 @@
 #include "tracker/wiimote/gaps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace vindu {
@@ -9,6 +11,16 @@ namespace {
 constexpr Duration kForget = std::chrono::milliseconds(200);
 
 }  // namespace
+
+std::string text_of(const GapCounts& counts) {
+  std::string text;
+  for (std::size_t cause = 0; cause < counts.size(); ++cause)
+    if (counts[cause].gaps)
+      text +=
+          fmt::format("{}{} {} (longest {:.0f} ms)", text.empty() ? "" : ", ", counts[cause].gaps,
+                      name_of(static_cast<GapCause>(cause)), 1e3 * seconds(counts[cause].longest));
+  return text.empty() ? "none" : text;
+}
 
 void GapCounter::expect(Time now) {
   if (!last_) last_ = now;

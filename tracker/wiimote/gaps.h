@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "core/clock.h"
 
@@ -40,6 +41,9 @@ struct GapCount {
 };
 
 using GapCounts = std::array<GapCount, kGapCauses>;
+
+/// "2 status (longest 45 ms), 1 camera (longest 140 ms)", or "none".
+std::string text_of(const GapCounts& counts);
 
 /// Times never go back.
 class GapCounter {

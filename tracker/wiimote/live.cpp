@@ -136,7 +136,7 @@ void LiveWiimote::run(const std::stop_token& stop) {
       if (reader_)
         reader_->reconnect(std::move(device), clock_.now());
       else
-        reader_.emplace(std::move(device), options_.camera, options_.name, options_.settings);
+        reader_.emplace(std::move(device), options_.camera, options_.settings);
       read_until_gone(stop);
       trouble = reader_->refuses()
                     ? "the device refuses commands: is it the empty slot of an adapter?"

@@ -58,6 +58,7 @@ class LiveWiimote final : public ObservationSource {
   /// Not connected now.
   bool gone() const override;
   LiveWiimoteState state() const;
+  const std::string& name() const { return options_.name; }
 
   void rumble(bool on) { rumble_ = on; }
 

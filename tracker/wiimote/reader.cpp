@@ -10,9 +10,9 @@ constexpr Duration kBreath = std::chrono::milliseconds(1);
 
 }  // namespace
 
-WiimoteReader::WiimoteReader(std::unique_ptr<HidDevice> device, int camera, std::string name,
+WiimoteReader::WiimoteReader(std::unique_ptr<HidDevice> device, int camera,
                              const WiimoteSettings& settings)
-    : device_(std::move(device)), camera_(camera), name_(std::move(name)), session_(settings) {}
+    : device_(std::move(device)), camera_(camera), session_(settings) {}
 
 void WiimoteReader::reconnect(std::unique_ptr<HidDevice> device, Time now) {
   device_ = std::move(device);

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "tracker/observation_source.h"
 #include "tracker/wiimote/hid_device.h"
@@ -15,8 +14,8 @@ namespace vindu {
 /// Bound to one thread.
 class WiimoteReader final : public ObservationSource {
  public:
-  /// `camera` is the index in the site's list that the observations carry; `name` is for messages.
-  WiimoteReader(std::unique_ptr<HidDevice> device, int camera, std::string name,
+  /// `camera` is the index in the site's list that the observations carry.
+  WiimoteReader(std::unique_ptr<HidDevice> device, int camera,
                 const WiimoteSettings& settings = {});
 
   /// The next sample that arrives no later than `until`, which must not go back; call it until it
@@ -34,7 +33,6 @@ class WiimoteReader final : public ObservationSource {
   /// Goes on with the device after it was away.
   void reconnect(std::unique_ptr<HidDevice> device, Time now);
 
-  const std::string& name() const { return name_; }
   WiimoteSession& session() { return session_; }
   const WiimoteSession& session() const { return session_; }
 
@@ -43,7 +41,6 @@ class WiimoteReader final : public ObservationSource {
 
   std::unique_ptr<HidDevice> device_;
   int camera_;
-  std::string name_;
   WiimoteSession session_;
   Time now_ = Time::min();  // of the last report, or as long as was waited
   bool gone_ = false;

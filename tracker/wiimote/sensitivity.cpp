@@ -1,14 +1,16 @@
 #include "tracker/wiimote/sensitivity.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <charconv>
 #include <vector>
 
 namespace vindu {
 namespace {
+
+struct NamedSensitivity {
+  const char* name;
+  Sensitivity blocks;
+};
 
 constexpr NamedSensitivity kNamed[] = {
     {"wii-1", {{0x02, 0, 0, 0x71, 0x01, 0, 0x64, 0, 0xfe}, {0xfd, 0x05}}},
@@ -34,8 +36,6 @@ std::optional<std::vector<std::uint8_t>> bytes_from_hex(std::string text) {
 
 }  // namespace
 
-std::span<const NamedSensitivity> named_sensitivities() { return kNamed; }
-
 std::string sensitivity_names() {
   std::string names;
   for (const NamedSensitivity& named : kNamed)
@@ -54,13 +54,6 @@ std::optional<Sensitivity> sensitivity_from(const std::string& text) {
   std::copy(bytes->begin(), middle, custom.block_1.begin());
   std::copy(middle, bytes->end(), custom.block_2.begin());
   return custom;
-}
-
-std::string name_of(const Sensitivity& sensitivity) {
-  const auto* named = std::ranges::find(kNamed, sensitivity, &NamedSensitivity::blocks);
-  if (named != std::end(kNamed)) return named->name;
-  return fmt::format("{:02x}{:02x}", fmt::join(sensitivity.block_1, ""),
-                     fmt::join(sensitivity.block_2, ""));
 }
 
 }  // namespace vindu

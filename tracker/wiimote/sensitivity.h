@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace vindu {
@@ -21,24 +20,13 @@ struct Sensitivity {
   bool operator==(const Sensitivity&) const = default;
 };
 
-struct NamedSensitivity {
-  const char* name;
-  Sensitivity blocks;
-};
-
 /// "wii-1" to "wii-5" (least to most sensitive), "marcan", "inio", "maximum": the levels of the
-/// console and those that WiiBrew, cwiid and Kestrel use.
-std::span<const NamedSensitivity> named_sensitivities();
-
-/// "wii-1, wii-2, ...", for messages.
+/// console and those that WiiBrew, cwiid and Kestrel use. For messages: "wii-1, wii-2, ...".
 std::string sensitivity_names();
 
 /// Of a name, or of 11 bytes as 22 hexadecimal digits, blanks between them allowed; empty when it
 /// is neither.
 std::optional<Sensitivity> sensitivity_from(const std::string& text);
-
-/// The name, or the 22 digits.
-std::string name_of(const Sensitivity& sensitivity);
 
 /// For LEDs three to five metres away.
 inline constexpr const char* kDefaultSensitivity = "wii-4";

@@ -235,7 +235,6 @@ std::optional<OutputReport> WiimoteSession::choose_output(Time now) {
   if (std::exchange(rumble_changed_, false)) return rumble_only();
   if (phase_ == Phase::resting && now >= rest_until_) begin(Phase::greeting, now);
   if (const auto request = watch(now)) return request;
-  if (phase_ == Phase::streaming && std::exchange(status_wanted_, false)) return request_status();
   if (phase_ == Phase::streaming && now >= next_check_) begin(Phase::checking, now);
   if (const auto command = exchange_.next_output(now)) return command;
   const Progress timeout = exchange_.take_timeout();
@@ -255,7 +254,7 @@ Time WiimoteSession::deadline() const {
   if (phase_ == Phase::resting) return rest_until_;
   Time next = exchange_.deadline();
   if (watching()) next = std::min(next, next_request_);
-  if (phase_ == Phase::streaming) next = std::min(next, status_wanted_ ? Time{} : next_check_);
+  if (phase_ == Phase::streaming) next = std::min(next, next_check_);
   return next;
 }
 

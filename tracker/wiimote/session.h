@@ -66,8 +66,6 @@ class WiimoteSession {
   void reconnected(Time now);
 
   void rumble(bool on);
-  /// A status report resets the device: this costs a short gap.
-  void ask_status() { status_wanted_ = true; }
 
  private:
   enum class Phase { greeting, starting, streaming, checking, resting };
@@ -96,7 +94,7 @@ class WiimoteSession {
   Time next_check_{};
   Time rest_until_{};
   Time last_report_{};
-  Time last_foreign_{};  // answer to somebody else
+  Time last_foreign_{};               // answer to somebody else
   std::optional<Time> silent_since_;  // the camera's bytes say nothing
   bool camera_lost_ = false;
   bool deaf_ = false;  // the device let the last commands go unanswered
@@ -104,7 +102,6 @@ class WiimoteSession {
   std::optional<HalfReport> first_half_;
   bool rumble_ = false;
   bool rumble_changed_ = false;
-  bool status_wanted_ = false;
   WiimoteHealth health_;
 };
 
