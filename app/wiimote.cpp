@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_number(const std::string& text) {
-  return !text.empty() && text.size() < 4 && text.find_first_not_of("0123456789") == text.npos;
+  return !text.empty() && text.size() < 4 &&
+         text.find_first_not_of("0123456789") == std::string::npos;
 }
 
 bool has_open(const fs::path& process, const std::string& path) {
@@ -60,7 +61,7 @@ std::vector<std::string> holders_of(const std::string& path) {
   std::error_code error;
   for (const auto& process : fs::directory_iterator("/proc", error)) {
     const std::string pid = process.path().filename();
-    if (pid.find_first_not_of("0123456789") != pid.npos || !has_open(process.path(), path))
+    if (pid.find_first_not_of("0123456789") != std::string::npos || !has_open(process.path(), path))
       continue;
     std::string name;
     std::getline(std::ifstream(process.path() / "comm"), name);

@@ -70,8 +70,8 @@ void add_bluetooth(const BluezView& view, std::vector<Finding>& findings) {
 
 std::string battery_text(const std::optional<StatusReport>& status) {
   if (!status) return "";
-  const int percent = static_cast<int>(100 * battery_charge(status->battery) + 0.5);
-  return fmt::format("{} %{}", percent, status->battery_low ? ", low" : "");
+  return fmt::format("{:.0f} %{}", 100 * battery_charge(status->battery),
+                     status->battery_low ? ", low" : "");
 }
 
 void print_table(const std::vector<Finding>& findings) {

@@ -54,7 +54,7 @@ std::string slots_json(const std::optional<IrSlots>& slots) {
 std::string buttons_json(Buttons buttons) {
   std::string text = text_of(buttons);
   if (text == "-") return "[]";
-  for (std::size_t at = 0; (at = text.find('+', at)) != text.npos; at += 3)
+  for (std::size_t at = 0; (at = text.find('+', at)) != std::string::npos; at += 3)
     text.replace(at, 1, "\",\"");
   return "[\"" + text + "\"]";
 }

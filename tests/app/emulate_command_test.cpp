@@ -41,7 +41,7 @@ TEST_F(EmulateCommand, RunsOrSaysHowToGetUhid) {
   const ProcessResult result = vindu({"wiimote", "emulate", "--seconds", "0.1"});
 
   const bool can = result.exit_code == 0 && std::filesystem::exists("/dev/uhid");
-  EXPECT_TRUE(can || result.err.find("/dev/uhid") != result.err.npos) << result.err;
+  EXPECT_TRUE(can || result.err.find("/dev/uhid") != std::string::npos) << result.err;
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 #include "tests/bluez/mock_bluez.h"
 
 #include <sdbus-c++/sdbus-c++.h>
-#include <signal.h>
 #include <spawn.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 

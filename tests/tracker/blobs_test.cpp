@@ -90,7 +90,7 @@ TEST(Blobs, OfNoPictureAndOfAllWhiteAreNone) {
 
 TEST(Blobs, AreFoundInAPartOfALargerPicture) {
   const auto pixels = IrPicture(64, 48).add({30, 20, 1.5, 200}).bytes();
-  const GreyView part{pixels.data() + 10 * 64 + 20, 24, 24, 64};
+  const GreyView part{&pixels[10 * 64 + 20], 24, 24, 64};
   const DotList dots = detect_blobs(part, {});
   ASSERT_THAT(dots, SizeIs(1));
   EXPECT_NEAR(dots[0].x_px, 10, 0.02);

@@ -33,7 +33,7 @@ class EmulatedBusTest : public testing::Test {
     std::array<std::uint8_t, 64> buffer;
     for (const Time until = clock_.now() + time;;) {
       const HidRead read = device.read(buffer, until);
-      if (read.status == HidStatus::gone) reports.push_back("gone");
+      if (read.status == HidStatus::gone) reports.emplace_back("gone");
       if (read.status != HidStatus::report) return reports;
       reports.push_back(to_hex(std::span(buffer).first(read.size)));
     }

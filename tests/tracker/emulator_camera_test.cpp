@@ -8,7 +8,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::Eq;
-using testing::IsEmpty;
 using testing::Optional;
 
 constexpr double kFrom3m = 1.0 / 9;

@@ -21,9 +21,9 @@ struct Spot {
 class IrPicture {
  public:
   IrPicture(int width_px, int height_px, double ground = 10)
-      : width_px_(width_px), values_(static_cast<std::size_t>(width_px * height_px), ground) {}
+      : width_px_(width_px), values_(static_cast<std::size_t>(width_px) * height_px, ground) {}
 
-  double& at(int x, int y) { return values_[static_cast<std::size_t>(y * width_px_ + x)]; }
+  double& at(int x, int y) { return values_[static_cast<std::size_t>(y) * width_px_ + x]; }
 
   IrPicture& add(const Spot& spot) {
     const int reach = static_cast<int>(std::ceil(6 * spot.sigma_px));

@@ -13,7 +13,6 @@ using std::chrono::milliseconds;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using ::testing::Not;
 using Bytes = std::vector<std::uint8_t>;
 
 struct Event {

@@ -52,7 +52,7 @@ BluezAdapter choose_adapter(const BluezView& view, const std::string& name) {
     throw Error({"there is no Bluetooth adapter", "BlueZ",
                  "plug one in; if there is one, sudo dmesg | grep -i -e bluetooth -e firmware "
                  "says what it lacks"});
-  const BluezAdapter chosen =
+  BluezAdapter chosen =
       !name.empty() ? named_adapter(view, name)
                     : *std::ranges::min_element(view.adapters, {}, [&](const BluezAdapter& a) {
                         return std::pair(!a.powered, wiimotes_on(view, a.name));
