@@ -176,7 +176,7 @@ TEST_F(WiimoteSessionTest, GetsTheStreamBackWhenTheKernelAnswersEveryStatusWithI
   }
   connection.all_gaps();
   EXPECT_EQ(connection.gaps(GapCause::status).gaps, 40u);
-  EXPECT_LE(connection.gaps(GapCause::status).longest, milliseconds(100));
+  EXPECT_LE(connection.gaps(GapCause::status).longest, milliseconds(60));
 }
 
 TEST_F(WiimoteSessionTest, KnowsThatAnExtensionWasPlugged) {

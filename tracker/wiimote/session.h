@@ -59,7 +59,7 @@ class WiimoteSession {
   Time deadline() const;
 
   /// The camera was started, as far as the device says.
-  bool started() const { return phase_ == Phase::streaming; }
+  bool started() const { return watching(); }
   WiimoteHealth health() const;
 
   /// The device was away and is back: everything begins again but the counts.
