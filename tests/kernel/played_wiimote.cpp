@@ -83,7 +83,7 @@ std::vector<Bytes> PlayedWiimote::take_outputs() {
 
 void PlayedWiimote::plug_extension(bool plugged) {
   const std::lock_guard lock(mutex_);
-  wishes_.push_back([plugged](WiimoteEmulator& wiimote) {
+  wishes_.emplace_back([plugged](WiimoteEmulator& wiimote) {
     wiimote.plug_extension(plugged, MonotonicClock().now());
   });
 }
@@ -113,7 +113,7 @@ std::vector<std::string> written_to(PlayedWiimote& wiimote) {
 
 std::string input_node(const std::string& name) {
   for (int tries = 0; tries < 100; ++tries) {
-    const std::string node = find_input_node(name);
+    std::string node = find_input_node(name);
     if (!node.empty()) return node;
     std::this_thread::sleep_for(100ms);
   }

@@ -139,10 +139,11 @@ TEST(ThesisMethod, says_why_there_is_no_pose) {
   const HeadConfig head;
   const Rigid3 room_from_head{Quat::Identity(), {0, 1.75, 2.2}};
   const Time now{std::chrono::seconds(1)};
-  const auto reason = [&](std::vector<std::size_t> first, std::vector<std::size_t> second) {
+  const auto reason = [&](const std::vector<std::size_t>& first,
+                          const std::vector<std::size_t>& second) {
     ThesisMethod method(cameras, head);
-    method.absorb(perfect_view(cameras, 0, head, room_from_head, now, std::move(first)));
-    method.absorb(perfect_view(cameras, 1, head, room_from_head, now, std::move(second)));
+    method.absorb(perfect_view(cameras, 0, head, room_from_head, now, first));
+    method.absorb(perfect_view(cameras, 1, head, room_from_head, now, second));
     const ThesisResult result = method.track(now);
     EXPECT_FALSE(result.pose);
     return result.reason;

@@ -17,7 +17,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::Gt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -29,14 +28,14 @@ Time at(Duration since_start) { return Time{} + seconds(1) + since_start; }
 class Connection {
  public:
   explicit Connection(const WiimoteSettings& settings = {}, EmulatorOptions options = {})
-      : session(settings), device(started(options), [this](Time) { return view; }) {}
+      : session(settings), device(started(std::move(options)), [this](Time) { return view; }) {}
 
   /// Lets time pass.
   void run_until(Time end) {
     while (now < end) {
       now += milliseconds(1);
       if (each_millisecond) each_millisecond();
-      while (const auto report = device.next(now)) to_host_.push_back({*report, now + kDelay});
+      while (const auto report = device.next(now)) to_host_.emplace_back(*report, now + kDelay);
       while (!to_host_.empty() && to_host_.front().second <= now) hand_over();
       while (const auto output = session.next_output(now)) write(output->span());
       while (!to_device_.empty() && to_device_.front().second <= now) obey();

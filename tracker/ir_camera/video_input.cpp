@@ -17,7 +17,7 @@ using OpenVideo = decltype(&vindu_open_video);
 std::filesystem::path module_file() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto installed = program.parent_path() / ".." / VINDU_INSTALLED_MODULES / "vindu_video.so";
+  auto installed = program.parent_path() / ".." / VINDU_INSTALLED_MODULES / "vindu_video.so";
   if (std::filesystem::exists(installed, error)) return installed;
   return std::filesystem::path(VINDU_BUILT_MODULES) / "vindu_video.so";
 }

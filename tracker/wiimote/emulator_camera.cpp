@@ -45,7 +45,7 @@ bool on_sensor(const SensorSpot& spot) {
 
 double placed(double value_px, double signal) {
   if (signal >= kFinest) return value_px;
-  return kUnitsPerPixel * std::floor(value_px / kUnitsPerPixel) + kUnitsPerPixel / 2;
+  return kUnitsPerPixel * std::floor(value_px / kUnitsPerPixel) + 0.5 * kUnitsPerPixel;
 }
 
 std::uint8_t byte(int value) {

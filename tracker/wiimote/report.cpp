@@ -56,23 +56,23 @@ IrSlots basic_slots(Bytes bytes) {
 
 /// Where a data report has what; 0 for what it has not.
 struct DataLayout {
-  std::uint8_t id;
   std::size_t size;  // with the id
   std::size_t acceleration_at;
   std::size_t dots_at;
+  std::uint8_t id;
   IrFormat format;
 };
 
 constexpr DataLayout kDataLayouts[] = {
-    {0x30, 3, 0, 0, {}},                   // buttons
-    {0x31, 6, 3, 0, {}},                   // and acceleration
-    {0x32, 11, 0, 0, {}},                  // and 8 bytes of the extension
-    {0x33, 18, 3, 6, IrFormat::extended},  // acceleration and 12 bytes of dots
-    {0x34, 22, 0, 0, {}},                  // 19 bytes of the extension
-    {0x35, 22, 3, 0, {}},                  // acceleration and 16 bytes of the extension
-    {0x36, 22, 0, 3, IrFormat::basic},     // 10 bytes of dots and 9 of the extension
-    {0x37, 22, 3, 6, IrFormat::basic},     // acceleration, 10 bytes of dots and 6
-    {0x3d, 22, 0, 0, {}},                  // 21 bytes of the extension, no buttons
+    {3, 0, 0, 0x30, {}},                   // buttons
+    {6, 3, 0, 0x31, {}},                   // and acceleration
+    {11, 0, 0, 0x32, {}},                  // and 8 bytes of the extension
+    {18, 3, 6, 0x33, IrFormat::extended},  // acceleration and 12 bytes of dots
+    {22, 0, 0, 0x34, {}},                  // 19 bytes of the extension
+    {22, 3, 0, 0x35, {}},                  // acceleration and 16 bytes of the extension
+    {22, 0, 3, 0x36, IrFormat::basic},     // 10 bytes of dots and 9 of the extension
+    {22, 3, 6, 0x37, IrFormat::basic},     // acceleration, 10 bytes of dots and 6
+    {22, 0, 0, 0x3d, {}},                  // 21 bytes of the extension, no buttons
 };
 
 Buttons buttons_of(Bytes bytes) {
