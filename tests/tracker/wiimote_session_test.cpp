@@ -34,7 +34,7 @@ class Connection {
   void run_until(Time end) {
     while (now < end) {
       now += milliseconds(1);
-      if (each_millisecond) each_millisecond();
+      if (const auto happens = each_millisecond) happens();
       while (const auto report = device.next(now)) to_host_.emplace_back(*report, now + kDelay);
       while (!to_host_.empty() && to_host_.front().second <= now) hand_over();
       while (const auto output = session.next_output(now)) write(output->span());
@@ -162,7 +162,7 @@ TEST_F(WiimoteSessionTest, GetsTheStreamBackWhenTheKernelAnswersEveryStatusWithI
   stream(connection);
   int race = 0;
   connection.lose_input = [&](std::span<const std::uint8_t> bytes) {
-    constexpr std::uint8_t kKernels[] = {0x12, 0x00, 0x30};
+    static constexpr std::uint8_t kKernels[] = {0x12, 0x00, 0x30};
     if (bytes[0] == 0x20)
       connection.each_millisecond = [&, due = connection.now + milliseconds(race)] {
         if (connection.now >= due) connection.write(kKernels), connection.each_millisecond = {};
