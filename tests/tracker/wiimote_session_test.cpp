@@ -172,10 +172,11 @@ TEST_F(WiimoteSessionTest, GetsTheStreamBackWhenTheKernelAnswersEveryStatusWithI
   for (; race < 40; ++race) {  // the kernel's command before, between and after ours
     connection.device.send_status(connection.now);
     connection.run(milliseconds(500));
+    EXPECT_LE(connection.now - connection.samples.back().arrival, milliseconds(12)) << race;
   }
-  connection.all_gaps();
-  EXPECT_EQ(connection.gaps(GapCause::status).gaps, 40u);
-  EXPECT_LE(connection.gaps(GapCause::status).longest, milliseconds(60));
+  EXPECT_GE(connection.all_gaps(), 35u);  // a few are too short to be gaps
+  for (const GapCount& count : connection.session.health().gaps)
+    EXPECT_LE(count.longest, milliseconds(60));
 }
 
 TEST_F(WiimoteSessionTest, KnowsThatAnExtensionWasPlugged) {
