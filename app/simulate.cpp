@@ -65,9 +65,10 @@ struct Run {
 void check_clock(const SimulateOptions& options, const Site& site) {
   if (options.clock != "manual" || options.mode != "track") return;
   for (const CameraConfig& camera : site.cameras)
-    if (!camera.video.device.empty() && camera.source == CameraSource::video)
+    if (camera.source == CameraSource::wiimote ||
+        (camera.source == CameraSource::video && !camera.video.device.empty()))
       throw Error({"a real camera cannot follow --clock manual", "camera " + camera.name,
-                   "leave --clock out, or name a file instead of the device"});
+                   "leave --clock out, or use emulated cameras or video files"});
 }
 
 EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& clock) {

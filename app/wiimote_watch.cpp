@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <mutex>
 
+#include "app/cameras.h"
 #include "app/stop_signals.h"
 #include "app/wiimote.h"
 #include "app/wiimote_screen.h"
@@ -29,15 +30,12 @@ struct WatchOptions {
   bool no_window = false;
 };
 
-WiimoteSettings settings_of(const WatchOptions& options, int player) {
-  const auto sensitivity = sensitivity_from(options.sensitivity);
-  if (!sensitivity)
-    throw Error({"is no sensitivity", "--sensitivity " + options.sensitivity,
-                 "give " + sensitivity_names() + ", or 22 hexadecimal digits (blocks 1 and 2)"});
-  const IrFormat format = options.format == "basic"  ? IrFormat::basic
-                          : options.format == "full" ? IrFormat::full
-                                                     : IrFormat::extended;
-  return {.format = format, .sensitivity = *sensitivity, .player = player};
+WiimoteSettings settings_of(const WatchOptions& options, int number) {
+  CameraConfig camera;
+  camera.name = std::to_string(number);
+  camera.sensitivity = options.sensitivity;
+  camera.dot_format = options.format;
+  return wiimote_settings(camera, number - 1);
 }
 
 std::string slots_json(const std::optional<IrSlots>& slots) {

@@ -91,8 +91,10 @@ void WallRenderer::draw_together(const FrameState& state, std::span<const std::s
   for (std::size_t order = 0; order < tiles.size(); ++order) {
     const Tile& tile = wall_.tiles[tiles[order]];
     const auto view = tile_view(tile.corners, state.eye_in_wall);
-    if (!view) frame.black_tiles.push_back(tile.name);
-    if (!view) continue;
+    if (!view) {
+      frame.black_tiles.push_back(tile.name);
+      continue;
+    }
     canvas_->draw_into(cell(order));
     const DrawCount count = renderer_.draw(*view, scenes);
     frame.count.draws += count.draws;

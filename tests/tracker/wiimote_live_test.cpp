@@ -84,7 +84,7 @@ TEST_F(LiveWiimoteTest, WaitsForADeviceThatWentAwayAndGoesOnWithIt) {
   device.unplug();
   ASSERT_TRUE(eventually([&] { return left.gone(); }));
   EXPECT_TRUE(eventually([&] { return !left.state().trouble.empty(); }));
-  EXPECT_THAT(left.state().trouble, HasSubstr("no Wiimote is connected"));
+  EXPECT_THAT(left.state().trouble, HasSubstr("is not connected: press a button"));
   while (left.next(clock_.now())) continue;
   device.plug_in();
   EXPECT_EQ(dot_of(left), 100);
@@ -115,6 +115,32 @@ TEST_F(LiveWiimoteTest, SkipsTheEmptySlotsOfAnAdapterAndOtherControllers) {
   bus_.add_strangers();
   bus_.add_dolphin_bar(1, dot_at(100));
   LiveWiimote left(bus_, clock_, claims_, named("left"));
+  EXPECT_EQ(dot_of(left), 100);
+}
+
+TEST_F(LiveWiimoteTest, PassesByAnEmptySlotThatComesFirst) {
+  EmulatedDeviceOptions empty;
+  empty.info.name = "Mayflash Wiimote PC Adapter";
+  empty.empty_slot = true;
+  add(100, empty), add(100, empty), add(200);
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  EXPECT_EQ(dot_of(left), 200);
+}
+
+TEST_F(LiveWiimoteTest, StaysWithItsDeviceWhenTheyComeBackInAnotherOrder) {
+  EmulatedDevice& first = add(100);
+  EmulatedDevice& second = add(200);
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  ASSERT_EQ(dot_of(left), 100);
+  LiveWiimote right(bus_, clock_, claims_, named("right"));
+  ASSERT_EQ(dot_of(right), 200);
+  first.unplug(), second.unplug();
+  ASSERT_TRUE(eventually([&] { return left.gone() && right.gone(); }));
+  for (LiveWiimote* wiimote : {&left, &right})
+    while (wiimote->next(clock_.now())) continue;
+  second.plug_in();
+  ASSERT_EQ(dot_of(right), 200);
+  first.plug_in();
   EXPECT_EQ(dot_of(left), 100);
 }
 

@@ -214,6 +214,17 @@ TEST_F(WiimoteSessionTest, TakesTheCameraBackFromSomebodyWhoSetsAnotherFormat) {
   EXPECT_EQ(dots_of(*connection.samples.back().data.slots).size(), 1u);
 }
 
+TEST_F(WiimoteSessionTest, GetsItsOwnReportBackFromEveryOther) {
+  for (const int other : {0x30, 0x31, 0x36, 0x37, 0x3d, 0x3e}) {
+    Connection connection;
+    stream(connection);
+    connection.write(std::vector<std::uint8_t>{0x12, 0x04, static_cast<std::uint8_t>(other)});
+    connection.run(seconds(1));
+    EXPECT_EQ(connection.samples.back().data.id, 0x33) << other;
+    EXPECT_EQ(dots_of(*connection.samples.back().data.slots).size(), 1u) << other;
+  }
+}
+
 TEST_F(WiimoteSessionTest, FindsACameraThatWasSwitchedOffInSilence) {
   Connection connection;
   stream(connection);

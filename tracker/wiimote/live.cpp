@@ -43,6 +43,7 @@ LiveWiimote::LiveWiimote(HidBus& bus, Clock& clock, WiimoteClaims& claims,
       clock_(clock),
       claims_(claims),
       options_(options),
+      own_address_(options.address),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::optional<Observation> LiveWiimote::next(Time until) {
@@ -80,24 +81,27 @@ void LiveWiimote::publish(bool connected, const std::string& trouble) {
   if (reader_) state_.health = reader_->session().health();
 }
 
-/// The device of the wanted address, or the first that can be had; null with what hinders it.
-std::unique_ptr<HidDevice> LiveWiimote::find_device(HidInfo& info, std::string& trouble) {
-  const bool any = options_.address.empty();
+/// The device of the wanted address, or the first that can be had and has not yet been tried in
+/// vain; null with what hinders it. Once dots came from a device its address is the wanted one:
+/// two cameras must not change places because their devices came back in another order.
+std::unique_ptr<HidDevice> LiveWiimote::find_device(std::string& trouble) {
+  const bool any = own_address_.empty();
   trouble =
       any ? "no Wiimote is connected: press a button on a paired one, or run vindu wiimote pair"
-          : "the Wiimote " + options_.address + " is not connected: press a button on it";
+          : "the Wiimote " + own_address_ + " is not connected: press a button on it";
   for (const HidInfo& found : find_wiimotes(bus_)) {
-    if (!any && !same_address(found.address, options_.address)) continue;
-    if (!claims_.claim(found.path)) continue;
+    if (!any && !same_address(found.address, own_address_)) continue;
+    if (fruitless_.contains(found.path) || !claims_.claim(found.path)) continue;
     try {
-      info = found;
       std::unique_ptr<HidDevice> device = bus_.open(found.path);
+      device_ = found;
       return options_.tap ? options_.tap(std::move(device)) : std::move(device);
     } catch (const Error& error) {
       trouble = error.what();
     }
     claims_.release(found.path);
   }
+  fruitless_.clear();
   return nullptr;
 }
 
@@ -110,34 +114,40 @@ void LiveWiimote::hand_over(const Observation& observation) {
   queue_.push_back(observation);
 }
 
-void LiveWiimote::read_until_gone(const std::stop_token& stop) {
+bool LiveWiimote::read_until_gone(const std::stop_token& stop) {
   Time published{}, heard = clock_.now();
+  bool any = false;
   while (!stop.stop_requested() && !reader_->gone() && !reader_->refuses()) {
     reader_->session().rumble(rumble_);
     const auto sample = reader_->next_sample(clock_.now() + kPublish);
     const Time now = clock_.now();
     if (sample) {
+      any = true;
       heard = now;
       if (options_.on_sample) options_.on_sample(*sample);
       if (const auto observation = reader_->observation_of(*sample)) hand_over(*observation);
     }
-    if (now - heard > kReopen) return;
+    if (now - heard > kReopen) return any;
     if (now - published < kPublish) continue;
     published = now;
     publish(true, trouble_of(reader_->session()));
   }
+  return any;
 }
 
 void LiveWiimote::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::string trouble;
-    std::unique_ptr<HidDevice> device = find_device(device_, trouble);
+    std::unique_ptr<HidDevice> device = find_device(trouble);
     if (device) {
       if (reader_)
         reader_->reconnect(std::move(device), clock_.now());
       else
         reader_.emplace(std::move(device), options_.camera, options_.settings);
-      read_until_gone(stop);
+      if (read_until_gone(stop))
+        own_address_ = device_.address;
+      else
+        fruitless_.insert(device_.path);
       trouble = reader_->refuses()
                     ? "the device refuses commands: is it the empty slot of an adapter?"
                     : reader_->session().health().trouble;

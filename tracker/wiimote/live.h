@@ -64,8 +64,9 @@ class LiveWiimote final : public ObservationSource {
 
  private:
   void run(const std::stop_token& stop);
-  std::unique_ptr<HidDevice> find_device(HidInfo& info, std::string& trouble);
-  void read_until_gone(const std::stop_token& stop);
+  std::unique_ptr<HidDevice> find_device(std::string& trouble);
+  /// Whether any sample came.
+  bool read_until_gone(const std::stop_token& stop);
   void wait(const std::stop_token& stop, Duration length);
   void hand_over(const Observation& observation);
   void publish(bool connected, const std::string& trouble);
@@ -75,7 +76,9 @@ class LiveWiimote final : public ObservationSource {
   WiimoteClaims& claims_;
   LiveWiimoteOptions options_;
   std::optional<WiimoteReader> reader_;  // of the thread
-  HidInfo device_;                       // of the thread
+  HidInfo device_;                       // of the thread; the last that was opened
+  std::string own_address_;              // of the thread; of the device that it stays with
+  std::set<std::string> fruitless_;      // of the thread; paths that gave nothing in this round
   std::atomic<bool> rumble_ = false;
   mutable std::mutex mutex_;  // guards what follows
   std::condition_variable_any wake_;

@@ -204,7 +204,7 @@ std::optional<WiimoteSample> WiimoteSession::take_half(const HalfReport& half, T
   if (half.second && first) return take_data(join(*first, half), arrival);
   if (half.second || first) ++health_.refused;  // the other half is lost
   if (!half.second) first_half_ = half;
-  next_request_ = arrival + kStopped;
+  if (settings_.format == IrFormat::full) next_request_ = arrival + kStopped;
   return std::nullopt;
 }
 
