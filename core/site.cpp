@@ -242,6 +242,7 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
     if (camera.source != CameraSource::video) read_wiimote(table, camera);
     if (camera.source == CameraSource::video && !table.has("device") && !table.has("file"))
       table.fail("device", "is missing; write device = \"/dev/video0\", or file for a video");
+    camera.lag_ms = table.number("lag_ms", {-1000, 1000}).value_or(camera.lag_ms);
     camera.intrinsics = read_intrinsics(table, intrinsics_before_calibration(camera));
     camera.room_from_camera = read_camera_pose(table);
     table.finish();

@@ -51,6 +51,7 @@ struct CameraConfig {
   std::string sensitivity = "wii-4";    ///< of a Wiimote: a name, or 22 hexadecimal digits
   std::string dot_format = "extended";  ///< of a Wiimote: basic, extended or full
   VideoConfig video;                    ///< where that is the source
+  double lag_ms = 0;                    ///< from the light to the report's arrival, at the least
   Intrinsics intrinsics;
   Rigid3 room_from_camera;  ///< camera: +x right, +y down, +z along the optical axis
 };

@@ -31,18 +31,44 @@ CameraModel::CameraModel(const CameraConfig& config)
       distorts_(std::ranges::any_of(intrinsics_.distortion, [](double k) { return k != 0; })),
       largest_radius2_(radius2_of_fold(intrinsics_)) {}
 
+bool CameraModel::in_view(const Vec3& x_in_camera) const {
+  const double z2 = x_in_camera.z() * x_in_camera.z();
+  return x_in_camera.z() > 0 && x_in_camera.head<2>().squaredNorm() <= largest_radius2_ * z2;
+}
+
 // The model of OpenCV's calib3d ("Camera Calibration and 3D Reconstruction", detailed description).
-std::optional<Vec2> CameraModel::project(const Vec3& x_in_camera) const {
-  if (!(x_in_camera.z() > 0)) return std::nullopt;
-  const double x = x_in_camera.x() / x_in_camera.z(), y = x_in_camera.y() / x_in_camera.z();
+Vec2 CameraModel::bent(double x, double y) const {
   const double r2 = x * x + y * y;
-  if (r2 > largest_radius2_) return std::nullopt;
   const auto& [k1, k2, p1, p2, k3] = intrinsics_.distortion;
   const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double bent_x = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x);
-  const double bent_y = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y;
-  return image_from_raw(source_, {intrinsics_.fx_px * bent_x + intrinsics_.cx_px,
-                                  intrinsics_.fy_px * bent_y + intrinsics_.cy_px});
+  return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
+          y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
+}
+
+std::optional<Vec2> CameraModel::project(const Vec3& x_in_camera) const {
+  if (!in_view(x_in_camera)) return std::nullopt;
+  const Vec2 image = bent(x_in_camera.x() / x_in_camera.z(), x_in_camera.y() / x_in_camera.z());
+  return image_from_raw(source_, {intrinsics_.fx_px * image.x() + intrinsics_.cx_px,
+                                  intrinsics_.fy_px * image.y() + intrinsics_.cy_px});
+}
+
+std::optional<Projection> CameraModel::project_with_jacobian(const Vec3& x_in_camera) const {
+  const auto raw_px = project(x_in_camera);
+  if (!raw_px) return std::nullopt;
+  const double near = 1 / x_in_camera.z();
+  const double x = x_in_camera.x() * near, y = x_in_camera.y() * near, r2 = x * x + y * y;
+  const auto& [k1, k2, p1, p2, k3] = intrinsics_.distortion;
+  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  const double slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // of radial, times 1/x or 1/y
+  const double cross = x * y * slope + 2 * (p1 * x + p2 * y);
+  const double flip = source_ == CameraSource::video ? 1 : -1;
+  Eigen::Matrix2d d_raw_d_xy;
+  d_raw_d_xy << intrinsics_.fx_px * (radial + x * x * slope + 2 * p1 * y + 6 * p2 * x),
+      intrinsics_.fx_px * cross, flip * intrinsics_.fy_px * cross,
+      flip * intrinsics_.fy_px * (radial + y * y * slope + 6 * p1 * y + 2 * p2 * x);
+  Eigen::Matrix<double, 2, 3> d_xy_d_x;
+  d_xy_d_x << near, 0, -x * near, 0, near, -y * near;
+  return Projection{*raw_px, d_raw_d_xy * d_xy_d_x};
 }
 
 Vec2 CameraModel::undistorted(const Vec2& image_px) const {

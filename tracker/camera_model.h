@@ -22,6 +22,12 @@ constexpr int kWiimoteHeight_px = 768;
 /// Image coordinates (OpenCV) of a raw dot, and the other way round: the map is its own inverse.
 Vec2 image_from_raw(CameraSource source, const Vec2& raw_px);
 
+/// Where a point's dot is, and how it moves with the point.
+struct Projection {
+  Vec2 raw_px = Vec2::Zero();
+  Eigen::Matrix<double, 2, 3> d_raw_d_x_in_camera;  ///< pixels a metre
+};
+
 /// Reentrant; immutable once made.
 class CameraModel {
  public:
@@ -31,6 +37,9 @@ class CameraModel {
   /// is not in front of the camera, or so far aside that the distortion polynomial folds back.
   std::optional<Vec2> project(const Vec3& x_in_camera) const;
 
+  /// The same with its derivative.
+  std::optional<Projection> project_with_jacobian(const Vec3& x_in_camera) const;
+
   /// The ray of all points that project to this raw position.
   Ray ray_through(const Vec2& raw_px) const;
 
@@ -38,6 +47,8 @@ class CameraModel {
   const Rigid3& camera_from_room() const { return camera_from_room_; }
 
  private:
+  bool in_view(const Vec3& x_in_camera) const;
+  Vec2 bent(double x, double y) const;
   Vec2 undistorted(const Vec2& image_px) const;
 
   CameraSource source_;

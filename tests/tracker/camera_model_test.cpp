@@ -6,6 +6,7 @@
 
 #include <opencv2/calib3d.hpp>
 #include <random>
+#include <unsupported/Eigen/AutoDiff>
 
 namespace vindu {
 namespace {
@@ -48,6 +49,36 @@ TEST(CameraModel, projects_as_opencv_does) {
     ASSERT_TRUE(raw_px);
     EXPECT_NEAR(raw_px->x(), expected[0], 1e-9);
     EXPECT_NEAR(raw_px->y(), expected[1], 1e-9);
+  }
+}
+
+/// OpenCV's formula once more, for any number that can be differentiated.
+template <typename T>
+Eigen::Matrix<T, 2, 1> projected(const Eigen::Matrix<T, 3, 1>& x, const Intrinsics& camera) {
+  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
+  const T u = x(0) / x(2), v = x(1) / x(2), r2 = u * u + v * v;
+  const T radial = T(1) + r2 * k1 + r2 * r2 * k2 + r2 * r2 * r2 * k3;
+  return {(u * radial + u * v * (2 * p1) + (r2 + u * u * 2.0) * p2) * camera.fx_px + camera.cx_px,
+          (v * radial + (r2 + v * v * 2.0) * p1 + u * v * (2 * p2)) * camera.fy_px + camera.cy_px};
+}
+
+TEST(CameraModel, its_derivative_is_that_of_automatic_differentiation) {
+  using Scalar = Eigen::AutoDiffScalar<Vec3>;
+  for (const CameraSource source : {CameraSource::video, CameraSource::wiimote}) {
+    const CameraConfig config = camera_with_distortion(source);
+    const CameraModel camera(config);
+    const double up = source == CameraSource::video ? 1 : -1;  // of raw rows
+    for (const Vec3& point : points_in_view()) {
+      Eigen::Matrix<Scalar, 3, 1> x;
+      for (int axis = 0; axis < 3; ++axis) x(axis) = Scalar(point(axis), 3, axis);
+      const auto expected = projected<Scalar>(x, config.intrinsics);
+      const auto projection = camera.project_with_jacobian(point);
+      ASSERT_TRUE(projection);
+      EXPECT_EQ(projection->raw_px, *camera.project(point));
+      const auto& jacobian = projection->d_raw_d_x_in_camera;
+      EXPECT_LT((jacobian.row(0).transpose() - expected(0).derivatives()).norm(), 1e-9);
+      EXPECT_LT((jacobian.row(1).transpose() - up * expected(1).derivatives()).norm(), 1e-9);
+    }
   }
 }
 
