@@ -9,7 +9,7 @@ namespace {
 class PathEye final : public EyeSource {
  public:
   explicit PathEye(CameraPath path) : path_(std::move(path)) {}
-  EyeNow at(Time now) override {
+  EyeNow at(Time now, Time) override {
     if (!start_) start_ = now;
     return {.eye_in_wall = path_.eye_at(seconds(now - *start_)), .mode = Mode::loop};
   }
@@ -22,8 +22,8 @@ class PathEye final : public EyeSource {
 class PersonEye final : public EyeSource {
  public:
   explicit PersonEye(const Person& person) : person_(person) {}
-  EyeNow at(Time now) override {
-    return {.eye_in_wall = person_.eye_in_wall(now), .mode = Mode::track};
+  EyeNow at(Time, Time photon) override {
+    return {.eye_in_wall = person_.eye_in_wall(photon), .mode = Mode::track};
   }
 
  private:
@@ -33,7 +33,7 @@ class PersonEye final : public EyeSource {
 class FixedEye final : public EyeSource {
  public:
   explicit FixedEye(const Vec3& eye_in_wall) : eye_in_wall_(eye_in_wall) {}
-  EyeNow at(Time) override { return {.eye_in_wall = eye_in_wall_, .mode = Mode::track}; }
+  EyeNow at(Time, Time) override { return {.eye_in_wall = eye_in_wall_, .mode = Mode::track}; }
 
  private:
   Vec3 eye_in_wall_;
@@ -45,7 +45,7 @@ class PointerEye final : public EyeSource {
       : window_(window),
         half_size_m_(wall.grid.width_m / 2, wall.grid.height_m / 2),
         start_in_wall_(start_in_wall) {}
-  EyeNow at(Time) override {
+  EyeNow at(Time, Time) override {
     distance_factor_ =
         std::clamp(distance_factor_ * std::pow(0.9, window_.take_wheel()), 0.1, 10.0);
     const Vec2 across = window_.pointer().cwiseProduct(half_size_m_);
@@ -66,15 +66,15 @@ class PointerEye final : public EyeSource {
 TrackedEye::TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
                        const TrackedEyeOptions& options)
     : clock_(clock),
-      tracker_(site.cameras, site.head, site.wall.room_from_wall, options.tracker),
+      tracker_(site.cameras, site.heads, site.wall.room_from_wall, options.tracking),
       ease_(site.viewer.default_eye_in_wall),
       cameras_(site, room, clock, options.cameras) {}
 
-EyeNow TrackedEye::at(Time now) {
+EyeNow TrackedEye::at(Time now, Time photon) {
   const Time begin = clock_.now();
   for (const auto& camera : cameras_.sources())
     while (const auto observation = camera->next(now)) tracker_.absorb(*observation);
-  const std::optional<PoseSample> pose = tracker_.track(now);
+  const std::optional<PoseSample> pose = tracker_.track(now, photon);
   const bool known = pose && pose->level < TrackingLevel::held;
   const auto eye = known ? std::optional(tracker_.eye_in_wall(*pose)) : std::nullopt;
   const Vec3 shown = ease_.update(eye, now);

@@ -30,11 +30,12 @@ struct EyeNow {
 class EyeSource {
  public:
   virtual ~EyeSource() = default;
-  virtual EyeNow at(Time now) = 0;
+  /// `photon`: when the light of this frame will leave the wall.
+  virtual EyeNow at(Time now, Time photon) = 0;
 };
 
 struct TrackedEyeOptions {
-  TrackerOptions tracker;
+  TrackingConfig tracking;
   CamerasOptions cameras;
 };
 
@@ -45,7 +46,7 @@ class TrackedEye final : public EyeSource {
   TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
              const TrackedEyeOptions& options);
 
-  EyeNow at(Time now) override;
+  EyeNow at(Time now, Time photon) override;
   const Tracker& tracker() const { return tracker_; }
   const Cameras& cameras() const { return cameras_; }
 

@@ -27,9 +27,10 @@ LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
     clock.sleep_until(start + from_seconds(static_cast<double>(tick) / options.rate_hz));
     const Time now = clock.now();
     if (options.length && now - start > *options.length) break;
-    const EyeNow eye = eyes.at(now);
+    const Time photon = now + delay.expected() + options.display_latency;
+    const EyeNow eye = eyes.at(now, photon);
     FrameRecord record{.state = {.number = result.frames.size() + 1,
-                                 .photon_time = now + delay.expected() + options.display_latency,
+                                 .photon_time = photon,
                                  .eye_in_wall = eye.eye_in_wall,
                                  .navigation = options.navigation,
                                  .animation_time_s = seconds(now - start),

@@ -131,7 +131,7 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
   const Site site = site_for(command, summary.info);
   const Pace pace = pace_of(command, summary.first);
   std::vector<WiimoteReader> readers = open_readers(command, summary, site, pace);
-  Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
+  Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
   Lookahead ahead(command.file, command.damage());
   std::optional<PoseSample> said;
   for (Ticks ticks(site.rate_hz, summary.first);; ticks.advance()) {
@@ -139,7 +139,7 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
     for (WiimoteReader& reader : readers)
       while (const auto observation = reader.next(now)) tracker.absorb(*observation);
     pace.clock->sleep_until(now);
-    const std::optional<PoseSample> pose = tracker.track(now);
+    const std::optional<PoseSample> pose = tracker.track(now, now);
     const bool news =
         pose && (!said || pose->capture_time != said->capture_time || pose->level != said->level);
     if (news) put_line(json_of(*pose, tracker.eye_in_wall(*pose), -pace.shift));

@@ -79,9 +79,8 @@ std::string json_of(const PoseSample& pose, const Vec3& eye_in_wall, Duration sh
   return fmt::format(
       R"({{"t_ns":{},"object":{},"level":"{}","eye_in_wall_m":{},)"
       R"("room_from_head":{{"translation_m":{},"quaternion_xyzw":[{},{},{},{}]}},"sigma_m":{}}})",
-      nanoseconds(pose.capture_time + shift), pose.object, name_of(pose.level),
-      json_vec(eye_in_wall), json_vec(pose.room_from_head.translation), q.x(), q.y(), q.z(), q.w(),
-      sigma_of(pose));
+      nanoseconds(pose.time + shift), pose.object, name_of(pose.level), json_vec(eye_in_wall),
+      json_vec(pose.room_from_head.translation), q.x(), q.y(), q.z(), q.w(), sigma_of(pose));
 }
 
 }  // namespace vindu::app

@@ -88,12 +88,15 @@ std::string row_text(const Row& row, const char* unit) {
 std::string tracking_text(const RunReport& report) {
   if (!report.tracker) return "";
   const TrackerCounts& counts = report.tracker->counts();
-  const double frames =
-      static_cast<double>(std::max<std::uint64_t>(counts.frames_tracked + counts.frames_lost(), 1));
-  std::string text =
-      fmt::format("  {:<34}{} of {} frames ({:.1f} %), {} reports\n", "head found",
-                  counts.frames_tracked, counts.frames_tracked + counts.frames_lost(),
-                  100 * static_cast<double>(counts.frames_tracked) / frames, counts.reports);
+  const double frames = static_cast<double>(std::max<std::uint64_t>(counts.frames, 1));
+  std::string text = fmt::format(
+      "  {:<34}{} of {} frames ({:.1f} %), {} reports\n", "head found", counts.frames_tracked(),
+      counts.frames, 100 * static_cast<double>(counts.frames_tracked()) / frames, counts.reports);
+  for (std::size_t level = 0; level < counts.frames_by_level.size(); ++level)
+    if (counts.frames_by_level[level])
+      text += fmt::format("  {:<34}{} frames\n",
+                          fmt::format("  {}", name_of(static_cast<TrackingLevel>(level))),
+                          counts.frames_by_level[level]);
   for (std::size_t reason = 0; reason < kNoPoseReasons; ++reason)
     if (counts.frames_lost_by_reason[reason])
       text += fmt::format("  {:<34}{} frames\n",
@@ -145,7 +148,7 @@ std::string json_of(const RunReport& report) {
                         row.spread.mean, row.spread.p95, row.spread.largest);
   if (report.tracker)
     rows += fmt::format(", \"frames_tracked\": {}, \"frames_lost\": {}",
-                        report.tracker->counts().frames_tracked,
+                        report.tracker->counts().frames_tracked(),
                         report.tracker->counts().frames_lost());
   return fmt::format(
       "{{\"frames\": {}, \"seconds\": {:.3f}, \"ticks_missed\": {}, \"scale\": {:.4f}{}}}\n",

@@ -33,7 +33,7 @@ struct SimulateOptions {
   std::string wall_file;
   std::string mode = "track";
   std::string path_file;
-  std::string method = "thesis";
+  std::optional<std::string> method;
   std::string clock = "real";
   std::string out = "out";
   std::optional<Placement> place;
@@ -119,7 +119,7 @@ std::unique_ptr<EyeSource> make_eyes(Run& run) {
                                                                   : options.path_file));
   auto tracked = std::make_unique<TrackedEye>(
       run.site, *run.room, *run.clock,
-      TrackedEyeOptions{.tracker = {options.method},
+      TrackedEyeOptions{.tracking = run.site.tracking,
                         .cameras = {.threads = options.clock != "manual", .tap = {}}});
   run.tracker = &tracked->tracker();
   run.cameras = &tracked->cameras();
@@ -135,6 +135,7 @@ Run assemble(const SimulateOptions& options) {
           .eyes = {},
           .surface = {},
           .wall = {}};
+  if (options.method) run.site.tracking.method = *options.method;
   if (run.site.cameras.empty() && options.mode == "track")
     throw Error({"names no [[camera]]", options.wall_file,
                  "add cameras with source = \"emulated\", or use --mode loop"});
@@ -177,7 +178,8 @@ Rigid3 head_in_picture(const Run& run, const FrameState& state) {
   if (run.tracker && all_emulated(run.site))
     return run.room->person().room_from_head(state.photon_time);
   const Rigid3& room_from_wall = run.site.wall.room_from_wall;
-  return {Quat::Identity(), room_from_wall * state.eye_in_wall - run.site.head.eye_in_head};
+  return {Quat::Identity(),
+          room_from_wall * state.eye_in_wall - run.site.heads.front().eye_in_head};
 }
 
 /// The window: the room above, the wall's picture below.
@@ -324,7 +326,10 @@ void add_simulate(CLI::App& parent, Action& chosen) {
   app->add_option("--mode", options->mode, "track: the eye is tracked; loop: it follows a path")
       ->check(CLI::IsMember({"track", "loop"}));
   app->add_option("--path", options->path_file, "Camera path of loop mode")->type_name("FILE");
-  app->add_option("--method", options->method, "Tracking method")->check(CLI::IsMember({"thesis"}));
+  app->add_option(
+         "--method", options->method,
+         "Tracking method: joint, or the thesis' own to compare (default: the wall file's)")
+      ->check(CLI::IsMember({"joint", "thesis"}));
   app->add_option("--seconds", options->seconds,
                   "Length of the run (default: 15; in a window: until it is closed)")
       ->check(CLI::Range(0.05, 1e6));

@@ -49,7 +49,7 @@ struct Room {
   Room(const EmulateOptions& wanted)
       : options(wanted),
         site(load_site(wanted.wall_file)),
-        person(site.head, site.wall.room_from_wall,
+        person(site.heads.front(), site.wall.room_from_wall,
                {.seed = wanted.seed, .start = MonotonicClock().now()}),
         descriptor(read_asset("rdesc.bin")),
         eeprom(read_asset("eeprom.bin")) {
@@ -80,7 +80,7 @@ HidInfo identity_of(const Room& room, int index) {
 WiimoteEmulator switch_on(const Room& room, int index) {
   const CameraConfig& camera = room.site.cameras[index % room.site.cameras.size()];
   constexpr double kNoise_px = 0.3;
-  EmulatedSensor sensor(camera, room.site.head, kNoise_px, room.options.seed + index + 1);
+  EmulatedSensor sensor(camera, room.site.heads.front(), kNoise_px, room.options.seed + index + 1);
   return WiimoteEmulator(
       {.eeprom = room.eeprom,
        .motion_plus = room.options.product == "0330",

@@ -30,7 +30,7 @@ struct Scene {
     for (std::size_t i = 0; i < 2; ++i) {
       CameraConfig& camera = site.cameras[i];
       if (distorted) camera.intrinsics.distortion = {0.03, -0.02, 0.001, 0.001, 0};
-      EmulatedSensor sensor(camera, site.head, 0.3, i);
+      EmulatedSensor sensor(camera, site.heads.front(), 0.3, i);
       reports[i] = encode_report_0x33(sensor.look(room_from_head));
       seen[i] = {static_cast<int>(i), Time{},
                  dots_of(*std::get<DataReport>(*parse_report(reports[i]).report).slots)};
@@ -95,7 +95,7 @@ BENCHMARK(parse_one_report);
 
 void thesis_poll(benchmark::State& state) {
   const Scene scene(state.range(0) == 1);
-  ThesisMethod method(scene.site.cameras, scene.site.head);
+  ThesisMethod method(scene.site.cameras, scene.site.heads.front());
   for (auto _ : state) benchmark::DoNotOptimize(poll(method, scene));
 }
 BENCHMARK(thesis_poll)->ArgName("distorted")->Arg(0)->Arg(1);
@@ -109,7 +109,7 @@ BENCHMARK(opencv_undistort_and_triangulate)->ArgName("distorted")->Arg(0)->Arg(1
 
 void thesis_poll_over_opencv(benchmark::State& state) {
   const Scene scene(state.range(0) == 1);
-  ThesisMethod method(scene.site.cameras, scene.site.head);
+  ThesisMethod method(scene.site.cameras, scene.site.heads.front());
   const OpenCvReference reference(scene);
   Duration ours{}, theirs{};
   for (auto _ : state) {

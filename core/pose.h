@@ -20,7 +20,8 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 struct PoseSample {
   int object = 0;
-  Time capture_time{};
+  Time time{};          ///< that the pose is for
+  Time capture_time{};  ///< of the newest dot that it rests on
   TrackingLevel level = TrackingLevel::lost;
   Rigid3 room_from_head;
   Vec3 velocity_in_room_m_s = Vec3::Zero();

@@ -121,11 +121,43 @@ void read_viewer(TomlTable& root, ViewerConfig& viewer) {
   table->finish();
 }
 
-void read_head(TomlTable& root, HeadConfig& head) {
-  auto table = root.table("head");
+HeadConfig read_head(TomlTable& table) {
+  HeadConfig head;
+  head.name = table.text("name").value_or(head.name);
+  head.leds_in_head = table.vec3s("leds_m", 1, 16, {-10, 10}).value_or(head.leds_in_head);
+  head.eye_in_head = table.vec3("eye_m", {-1, 1}).value_or(head.eye_in_head);
+  table.finish();
+  return head;
+}
+
+/// One [head], or several [[head]] with names.
+void read_heads(TomlTable& root, std::vector<HeadConfig>& heads) {
+  if (!root.has("head")) return;
+  if (!root.is_list("head")) {
+    if (auto table = root.table("head")) heads = {read_head(*table)};
+    return;
+  }
+  heads.clear();
+  for (TomlTable& table : root.tables("head")) {
+    table.require("name", "\"visitor\"");
+    HeadConfig head = read_head(table);
+    if (std::ranges::find(heads, head.name, &HeadConfig::name) != heads.end())
+      table.fail("name", "\"" + head.name + "\" stands twice; give every head its own name");
+    heads.push_back(std::move(head));
+  }
+  if (heads.empty()) heads.resize(1);
+}
+
+void read_tracking(TomlTable& root, Site& site) {
+  auto table = root.table("tracking");
   if (!table) return;
-  head.leds_in_head = table->vec3s("leds_m", 1, 16, {-10, 10}).value_or(head.leds_in_head);
-  head.eye_in_head = table->vec3("eye_m", {-1, 1}).value_or(head.eye_in_head);
+  TrackingConfig& tracking = site.tracking;
+  tracking.method = table->one_of("method", {"joint", "thesis"}).value_or(tracking.method);
+  tracking.mode =
+      table->one_of("mode", {"auto", "six-dof", "hybrid", "position"}).value_or(tracking.mode);
+  std::vector<std::string> whom = {"nearest", "first"};
+  for (const HeadConfig& head : site.heads) whom.push_back(head.name);
+  tracking.follow = table->one_of("follow", whom).value_or(tracking.follow);
   table->finish();
 }
 
@@ -256,7 +288,8 @@ Site site_of(const toml::table& parsed, const std::string& file) {
   Site site;
   read_wall(root, site);
   read_viewer(root, site.viewer);
-  read_head(root, site.head);
+  read_heads(root, site.heads);
+  read_tracking(root, site);
   read_scene(root, site.scene);
   read_cameras(root, site.cameras);
   root.has("tile");  // read with the wall, known even where that failed

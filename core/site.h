@@ -59,8 +59,15 @@ struct CameraConfig {
 /// The tracked head: its LEDs and the point between both eyes, in head (+x right, +y up, -z
 /// forward; metres).
 struct HeadConfig {
+  std::string name = "head";
   std::vector<Vec3> leds_in_head = {{-0.09, 0, -0.09}, {0, 0, 0}, {0.09, 0, -0.09}};
   Vec3 eye_in_head = {0, -0.10, -0.19};
+};
+
+struct TrackingConfig {
+  std::string method = "joint";    ///< or "thesis"
+  std::string mode = "auto";       ///< the least that is good enough: six-dof, hybrid, position
+  std::string follow = "nearest";  ///< which head the wall shows: nearest, first, or its name
 };
 
 struct ViewerConfig {
@@ -83,7 +90,8 @@ struct Site {
   Wall wall;
   double rate_hz = 60;
   ViewerConfig viewer;
-  HeadConfig head;
+  std::vector<HeadConfig> heads = std::vector<HeadConfig>(1);  ///< one or more
+  TrackingConfig tracking;
   std::vector<CameraConfig> cameras;
   SceneConfig scene;
 };

@@ -32,12 +32,13 @@ EmulatedDeviceOptions device_options(const EmulatedWiimoteOptions& wiimote, std:
 }  // namespace
 
 EmulatedRoom::EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOptions& options)
-    : person_(std::make_unique<Person>(site.head, site.wall.room_from_wall, options.person)),
+    : person_(
+          std::make_unique<Person>(site.heads.front(), site.wall.room_from_wall, options.person)),
       bus_(std::make_unique<EmulatedHidBus>(clock)) {
   for (std::size_t i = 0; i < site.cameras.size(); ++i) {
     const std::uint64_t seed = options.wiimote.seed + 0x9e3779b97f4a7c15ULL * (i + 1);
-    EmulatedSensor sensor(site.cameras[i], site.head, options.wiimote.noise_px, seed,
-                          options.wiimote.glints);
+    EmulatedSensor sensor(site.cameras[i], site.heads.front(), options.wiimote.noise_px, seed,
+                          options.wiimote.glints, options.wiimote.false_dots);
     bus_->add(device_options(options.wiimote, seed, site.cameras[i]),
               [sensor, person = person_.get()](Time time) mutable {
                 return sensor.view(person->room_from_head(time));

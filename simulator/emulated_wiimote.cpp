@@ -6,7 +6,8 @@
 namespace vindu {
 namespace {
 
-constexpr double kNone = 1e-6;  // of brightness: no light at all
+constexpr double kFalseDot = 0.2;  // as bright as a cluster straight ahead at 2.2 m
+constexpr double kNone = 1e-6;     // of brightness: no light at all
 
 // A resting accelerometer shows 1 g upwards. Its axes: x left, y back, z up.
 std::array<double, 3> resting_acceleration_g(const Rigid3& camera_from_room) {
@@ -17,11 +18,12 @@ std::array<double, 3> resting_acceleration_g(const Rigid3& camera_from_room) {
 }  // namespace
 
 EmulatedSensor::EmulatedSensor(const CameraConfig& config, const HeadConfig& head, double noise_px,
-                               std::uint64_t seed, std::vector<Glint> glints)
+                               std::uint64_t seed, std::vector<Glint> glints, double false_dots)
     : camera_(config),
       helmet_(head),
       glints_(std::move(glints)),
       noise_px_(noise_px),
+      false_dots_(false_dots),
       random_(seed),
       acceleration_g_(resting_acceleration_g(camera_.camera_from_room())) {
   logic_.start(3);
@@ -48,6 +50,9 @@ SensorView EmulatedSensor::view(const Rigid3& room_from_head) {
   for (const Glint& glint : glints_)
     add_spot(glint.x_in_room, glint.brightness / (glint.x_in_room - camera_in_room).squaredNorm(),
              view.spots);
+  if (false_dots_ > 0 && random_.uniform(0, 1) < false_dots_)
+    view.spots.push_back(
+        {random_.uniform(0, kWiimoteWidth_px), random_.uniform(0, kWiimoteHeight_px), kFalseDot});
   return view;
 }
 

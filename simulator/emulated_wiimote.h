@@ -24,6 +24,7 @@ struct EmulatedWiimoteOptions {
   std::uint64_t seed = 1;
   double noise_px = 0.3;  ///< sigma of each coordinate, before rounding to whole units
   std::vector<Glint> glints;
+  double false_dots = 0;  ///< share of pictures with a bright dot at a random place
   /// True: streams dots as soon as report 0x33 is asked for; false: the host must start its camera.
   bool camera_already_on = false;
   LinkOptions link;
@@ -35,7 +36,7 @@ struct EmulatedWiimoteOptions {
 class EmulatedSensor {
  public:
   EmulatedSensor(const CameraConfig& config, const HeadConfig& head, double noise_px,
-                 std::uint64_t seed, std::vector<Glint> glints = {});
+                 std::uint64_t seed, std::vector<Glint> glints = {}, double false_dots = 0);
 
   /// What reaches the Wiimote, of a head there.
   SensorView view(const Rigid3& room_from_head);
@@ -51,6 +52,7 @@ class EmulatedSensor {
   Helmet helmet_;
   std::vector<Glint> glints_;
   double noise_px_;
+  double false_dots_;
   Random random_;
   std::array<double, 3> acceleration_g_;
   EmulatedCamera logic_;

@@ -97,6 +97,7 @@ ThesisResult ThesisMethod::track(Time now) const {
   if (!room_from_lmr) return without_pose(NoPose::degenerate, std::move(points));
   PoseSample pose;
   pose.capture_time = std::max(freshest_[0]->arrival, freshest_[1]->arrival);
+  pose.time = pose.capture_time;
   pose.level = TrackingLevel::six_dof;
   pose.room_from_head = *room_from_lmr * lmr_from_head_;
   return {pose, {}, std::move(points)};

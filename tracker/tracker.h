@@ -1,5 +1,5 @@
-// What the application sees of the tracker: observations in, the head's pose out, and an account of
-// what was lost and why.
+// What the application sees of the tracker: observations in, the heads' poses out, which of them
+// the wall follows, and an account of what was lost and why.
 #pragma once
 
 #include <array>
@@ -7,25 +7,27 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/pose.h"
 #include "core/site.h"
+#include "tracker/joint/joint_method.h"
 #include "tracker/observation.h"
 #include "tracker/thesis_method.h"
 
 namespace vindu {
 
-struct TrackerOptions {
-  std::string method = "thesis";
-};
-
 struct TrackerCounts {
   std::uint64_t reports = 0;
-  std::uint64_t frames_tracked = 0;
-  std::array<std::uint64_t, kNoPoseReasons> frames_lost_by_reason{};  ///< indexed by NoPose
+  std::uint64_t frames = 0;
+  /// Of the head that is followed, indexed by TrackingLevel; one never found counts as lost.
+  std::array<std::uint64_t, 6> frames_by_level{};
+  /// The thesis' method alone, indexed by NoPose.
+  std::array<std::uint64_t, kNoPoseReasons> frames_lost_by_reason{};
 
-  std::uint64_t frames_lost() const;
+  std::uint64_t frames_tracked() const;
+  std::uint64_t frames_lost() const { return frames - frames_tracked(); }
 };
 
 /// A pose is held this long after it was captured; then it is lost.
@@ -34,28 +36,47 @@ constexpr Duration kPoseHeldFor = std::chrono::seconds(2);
 /// Bound to one thread at a time.
 class Tracker {
  public:
-  /// Throws Error for an unknown method, or one that these cameras and LEDs cannot serve.
-  Tracker(std::span<const CameraConfig> cameras, const HeadConfig& head,
-          const Rigid3& room_from_wall, const TrackerOptions& options = {});
+  /// Throws Error for what cannot work: an unknown method or head, or cameras and LEDs that the
+  /// method cannot use. The thesis' method tracks the first head alone.
+  Tracker(std::span<const CameraConfig> cameras, std::span<const HeadConfig> heads,
+          const Rigid3& room_from_wall, const TrackingConfig& config = {});
 
   void absorb(const Observation& observation);
 
-  /// One frame. Level six_dof when the head was found; else the last pose as held, later lost, its
-  /// capture time unchanged. Empty until a head was found for the first time.
-  std::optional<PoseSample> track(Time now);
+  /// One frame, of which the light leaves the wall at `photon`: where the followed head will be
+  /// then. Held and lost poses are where the head was last. Empty until a head was found for the
+  /// first time.
+  std::optional<PoseSample> track(Time now, Time photon);
 
-  /// The eye of a pose, by the head's tracking offset; metres.
+  /// All heads that were ever found, as of the last frame.
+  const std::vector<PoseSample>& poses() const { return poses_; }
+
+  /// Follows the next head that is tracked, from now on.
+  void hand_over();
+
+  /// The eye of a pose, by its head's tracking offset; metres.
   Vec3 eye_in_wall(const PoseSample& pose) const;
 
   const TrackerCounts& counts() const { return counts_; }
-  /// The LEDs that the last frame triangulated, with their errors; may be empty.
+  /// In the order of the cameras; empty for the thesis' method, which knows nothing of that.
+  std::vector<CameraHealth> camera_health() const;
+  /// The LEDs that the thesis' method triangulated last, with their errors; may be empty.
   std::span<const TriangulatedPoint> points() const { return points_; }
 
  private:
-  ThesisMethod method_;
-  Vec3 eye_in_head_;
+  void track_all(Time now, Time photon);
+  void track_by_thesis(Time now);
+  void apply_mode(PoseSample& pose) const;
+  double distance_to_wall_m(const PoseSample& pose) const;
+  std::optional<PoseSample> followed();
+
+  TrackingConfig config_;
+  std::vector<HeadConfig> heads_;
   Rigid3 wall_from_room_;
-  std::optional<PoseSample> last_;
+  std::variant<ThesisMethod, JointMethod> method_;
+  std::vector<PoseSample> poses_;
+  std::optional<int> following_;
+  bool by_hand_ = false;
   std::vector<TriangulatedPoint> points_;
   TrackerCounts counts_;
 };

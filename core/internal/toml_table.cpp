@@ -75,6 +75,11 @@ const toml::node* TomlTable::find(const std::string& name) {
 
 bool TomlTable::has(const std::string& name) { return find(name) != nullptr; }
 
+bool TomlTable::is_list(const std::string& name) {
+  const toml::node* node = find(name);
+  return node && node->is_array();
+}
+
 std::optional<double> TomlTable::number(const std::string& name, Range range) {
   const toml::node* node = find(name);
   if (!node) return std::nullopt;

@@ -40,6 +40,7 @@ class TomlTable {
       : table_(table), path_(std::move(path)), problems_(problems) {}
 
   bool has(const std::string& name);
+  bool is_list(const std::string& name);
   std::optional<double> number(const std::string& name, Range range);
   std::optional<int> integer(const std::string& name, Range range);
   std::optional<bool> boolean(const std::string& name);

@@ -44,14 +44,14 @@ class ReplayCommand : public AppTest {
     std::vector<WiimoteReader> readers;
     for (int i = 0; i < static_cast<int>(site.cameras.size()); ++i)
       readers.emplace_back(std::make_unique<RecordingHidDevice>(room.connect(i), writer, i), i);
-    Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
+    Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall);
     std::vector<std::string> eyes;
     std::optional<PoseSample> said;
     for (int tick = 0; tick <= 5 * site.rate_hz; ++tick) {
       const Time now{from_seconds(tick / site.rate_hz)};
       for (WiimoteReader& reader : readers)
         while (const auto seen = reader.next(now)) tracker.absorb(*seen);
-      const auto pose = tracker.track(now);
+      const auto pose = tracker.track(now, now);
       if (pose && (!said || pose->capture_time != said->capture_time || pose->level != said->level))
         eyes.push_back(eye_text(tracker.eye_in_wall(*pose)));
       said = pose;

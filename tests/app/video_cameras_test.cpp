@@ -32,7 +32,7 @@ class VideoCameras : public AppTest {
     const Rigid3 room_from_head{Quat::Identity(), {0.2, 1.7, 2.1}};
     const CameraModel model(config);
     IrPicture picture(320, 240);
-    for (const Vec3& led : site.head.leds_in_head) {
+    for (const Vec3& led : site.heads.front().leds_in_head) {
       const auto at = model.project(model.camera_from_room() * (room_from_head * led));
       picture.add({at->x(), at->y(), 1.5, 200});
     }

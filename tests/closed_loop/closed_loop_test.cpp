@@ -158,7 +158,7 @@ TEST_F(ClosedLoop, TrackedEyeCostsAFewPixels) {
   const Site site = thesis_site();
   ManualClock clock;
   const EmulatedRoom room(site, clock);
-  Tracker tracker(site.cameras, site.head, site.wall.room_from_wall);
+  Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall);
   std::vector<WiimoteReader> readers;
   for (std::size_t camera = 0; camera < site.cameras.size(); ++camera)
     readers.emplace_back(room.connect(camera), static_cast<int>(camera));
@@ -167,7 +167,7 @@ TEST_F(ClosedLoop, TrackedEyeCostsAFewPixels) {
     clock.sleep_until(Time{} + tick * std::chrono::microseconds(16667));
     for (WiimoteReader& reader : readers)
       while (const auto observation = reader.next(clock.now())) tracker.absorb(*observation);
-    const auto pose = tracker.track(clock.now());
+    const auto pose = tracker.track(clock.now(), clock.now());
     if (tick % 60 != 0 || !pose || pose->level != TrackingLevel::six_dof) continue;
     all.append(compare(site.wall, tracker.eye_in_wall(*pose), site.wall,
                        room.person().eye_in_wall(clock.now()), 9));

@@ -26,7 +26,7 @@ TEST(Site, OfTheThesisIsReadFromItsFile) {
   EXPECT_EQ(site.cameras[1].name, "right");
   EXPECT_EQ(site.cameras[1].source, CameraSource::emulated);
   EXPECT_THAT(site.cameras[1].room_from_camera, IsNearRigid(look_at({1, 2.3, 5}, {0, 1.65, 2}), 0));
-  EXPECT_THAT(site.head.eye_in_head, IsNearPoint(Vec3(0, -0.10, -0.19), 0));
+  EXPECT_THAT(site.heads.front().eye_in_head, IsNearPoint(Vec3(0, -0.10, -0.19), 0));
 }
 
 TEST(Site, OfAWallAloneHasTheDefaults) {
@@ -36,7 +36,7 @@ TEST(Site, OfAWallAloneHasTheDefaults) {
   EXPECT_THAT(site.wall.room_from_wall, IsNearRigid(room_from_wall_at(1.55, 0), 0));
   EXPECT_DOUBLE_EQ(site.rate_hz, 60);
   EXPECT_THAT(site.viewer.default_eye_in_wall, IsNearPoint(Vec3(0, 0.10, 2.0), 0));
-  EXPECT_EQ(site.head.leds_in_head.size(), 3u);
+  EXPECT_EQ(site.heads.front().leds_in_head.size(), 3u);
   EXPECT_TRUE(site.cameras.empty());
   EXPECT_TRUE(site.scene.model.empty());
   EXPECT_EQ(site.scene.place, Placement::fit);
@@ -75,8 +75,8 @@ TEST(Site, TakesViewerHeadAndScene) {
                             "[scene]\nmodel = \"models/a.glb\"\nplace = \"life-size\"\n");
   EXPECT_THAT(site.viewer.default_eye_in_wall, IsNearPoint(Vec3(0.1, 0.2, 3), 0));
   EXPECT_DOUBLE_EQ(site.viewer.display_latency_ms, 25);
-  ASSERT_EQ(site.head.leds_in_head.size(), 1u);
-  EXPECT_THAT(site.head.eye_in_head, IsNearPoint(Vec3(0, -0.1, -0.2), 0));
+  ASSERT_EQ(site.heads.front().leds_in_head.size(), 1u);
+  EXPECT_THAT(site.heads.front().eye_in_head, IsNearPoint(Vec3(0, -0.1, -0.2), 0));
   EXPECT_EQ(site.scene.place, Placement::life_size);
 }
 

@@ -189,7 +189,7 @@ struct Walk {
     const CameraModel model(site.cameras[camera]);
     for (int i = 0; i < count; ++i) {
       IrPicture picture(640, 480);
-      for (const Vec3& led : site.head.leds_in_head) {
+      for (const Vec3& led : site.heads.front().leds_in_head) {
         const auto at = model.project(model.camera_from_room() * (room_from_head(i) * led));
         picture.add({at->x(), at->y(), 1.8, 200});
       }
@@ -207,13 +207,13 @@ TEST_F(IrCameras, OfTwoFilesShowTheTrackerAWalkingHead) {
   ManualClock clock;
   const auto left = make_ir_camera(walk.site.cameras[0], 0, clock);
   const auto right = make_ir_camera(walk.site.cameras[1], 1, clock);
-  Tracker tracker(walk.site.cameras, walk.site.head, walk.site.wall.room_from_wall);
+  Tracker tracker(walk.site.cameras, walk.site.heads, walk.site.wall.room_from_wall);
   for (int i = 0; i < kPictures; ++i) {
     const auto a = left->next(Time{1s}), b = right->next(Time{1s});
     ASSERT_TRUE(a && b);
     tracker.absorb(*a);
     tracker.absorb(*b);
-    const auto pose = tracker.track(a->arrival);
+    const auto pose = tracker.track(a->arrival, a->arrival);
     ASSERT_TRUE(pose && pose->level == TrackingLevel::six_dof) << i;
     const Vec3 error = pose->room_from_head.translation - Walk::room_from_head(i).translation;
     EXPECT_LT(error.norm(), 0.003) << i;

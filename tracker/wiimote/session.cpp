@@ -15,7 +15,7 @@ constexpr Patience kChecking{milliseconds(100), 3};
 
 // Two periods of the stream without a report: it has stopped. (Asking again at once, on the event
 // that stops it, loses a race against the kernel's own command in one case of six.)
-constexpr Duration kStopped = milliseconds(21);
+constexpr Duration kStopped = milliseconds(31);
 constexpr Duration kAskAgain = milliseconds(15);
 constexpr Duration kRestart = milliseconds(600);  // asking did not help: start the camera again
 constexpr Duration kFirstCheck = milliseconds(60), kCheckAgain = std::chrono::seconds(2);

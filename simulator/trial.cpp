@@ -1,0 +1,124 @@
+#include "simulator/trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracker/wiimote/emulator_bus.h"
+#include "tracker/wiimote/reader.h"
+
+namespace vindu {
+namespace {
+
+/// The emulated Wiimotes and the driver that reads them.
+class Cameras {
+ public:
+  Cameras(const TrialOptions& options, Clock& clock) : bus_(clock) {
+    for (std::size_t i = 0; i < options.cameras.size(); ++i) {
+      EmulatedWiimoteOptions wiimote = options.wiimote;
+      wiimote.seed += 0x9e3779b97f4a7c15ULL * (i + 1);
+      EmulatedDeviceOptions device;
+      device.seed = wiimote.seed;
+      device.link = wiimote.link;
+      device.ring = wiimote.ring;
+      Random random(wiimote.seed ^ 0x5851f42d4c957f2dULL);
+      device.firmware.phase =
+          from_seconds(random.uniform(0, seconds(device.firmware.report_period)));
+      bus_.add(device, [sensor = EmulatedSensor(options.cameras[i], options.head, wiimote.noise_px,
+                                                wiimote.seed, wiimote.glints, wiimote.false_dots),
+                        move = options.room_from_head](Time time) mutable {
+        return sensor.view(move(time));
+      });
+    }
+    for (std::size_t i = 0; i < bus_.size(); ++i)
+      readers_.emplace_back(bus_.open(bus_.path(i)), static_cast<int>(i));
+  }
+
+  template <class Take>
+  void drain(Time now, Take take) {
+    for (WiimoteReader& reader : readers_)
+      while (const auto seen = reader.next(now)) take(*seen);
+  }
+
+ private:
+  EmulatedHidBus bus_;
+  std::vector<WiimoteReader> readers_;
+};
+
+TrialFrame judged(const std::optional<PoseSample>& pose, const TrialOptions& options, Time photon) {
+  TrialFrame frame{.photon = photon};
+  if (!pose) return frame;
+  const Rigid3 truth = options.room_from_head(photon);
+  frame.level = pose->level;
+  frame.eye_in_room = pose->room_from_head * options.head.eye_in_head;
+  frame.eye_error_m = (frame.eye_in_room - truth * options.head.eye_in_head).norm();
+  frame.turn_error_rad = pose->room_from_head.rotation.angularDistance(truth.rotation);
+  return frame;
+}
+
+double rms(double sum_of_squares, std::size_t count) {
+  return count ? std::sqrt(sum_of_squares / static_cast<double>(count)) : 0;
+}
+
+}  // namespace
+
+TrialErrors errors_of(const std::vector<TrialFrame>& frames) {
+  std::vector<double> eyes_m;
+  double eye2 = 0, turn2 = 0;
+  for (const TrialFrame& frame : frames) {
+    if (frame.level >= TrackingLevel::held) continue;
+    eyes_m.push_back(frame.eye_error_m);
+    eye2 += frame.eye_error_m * frame.eye_error_m;
+    turn2 += frame.turn_error_rad * frame.turn_error_rad;
+  }
+  if (eyes_m.empty()) return {};
+  std::ranges::sort(eyes_m);
+  const auto p95 = static_cast<std::size_t>(0.95 * static_cast<double>(eyes_m.size() - 1));
+  return {.found = static_cast<double>(eyes_m.size()) / static_cast<double>(frames.size()),
+          .eye_rms_m = rms(eye2, eyes_m.size()),
+          .eye_p95_m = eyes_m[p95],
+          .eye_max_m = eyes_m.back(),
+          .turn_rms_rad = rms(turn2, eyes_m.size())};
+}
+
+std::vector<std::vector<TrialFrame>> run_trial(const TrialOptions& options,
+                                               const std::vector<TrackingConfig>& methods) {
+  ManualClock clock;
+  Cameras cameras(options, clock);
+  std::vector<Tracker> trackers;
+  for (const TrackingConfig& method : methods)
+    trackers.emplace_back(options.cameras, std::vector{options.head}, Rigid3{}, method);
+  std::vector<std::vector<TrialFrame>> frames(methods.size());
+  const Time begin = Time{} + options.warm_up, end = begin + options.length;
+  for (std::int64_t tick = 1; clock.now() < end; ++tick) {
+    clock.sleep_until(Time{from_seconds(static_cast<double>(tick) / options.rate_hz)});
+    const Time now = clock.now(), photon = now + options.photon_lag;
+    cameras.drain(now, [&](const Observation& seen) {
+      for (Tracker& tracker : trackers) tracker.absorb(seen);
+    });
+    for (std::size_t i = 0; i < trackers.size(); ++i) {
+      const auto pose = trackers[i].track(now, photon);
+      if (now >= begin) frames[i].push_back(judged(pose, options, photon));
+    }
+  }
+  return frames;
+}
+
+std::function<Rigid3(Time)> swaying(const Vec3& middle_in_room, double peak_m_s,
+                                    double peak_rad_s) {
+  return [=](Time time) {
+    const double t = seconds(time.time_since_epoch());
+    const auto sine = [&](double rate_hz, double phase) {
+      return std::sin(2 * kPi * rate_hz * t + phase) / (2 * kPi * rate_hz);
+    };
+    // Speeds add up to the peak where all sines pass zero together.
+    const Vec3 way(0.75 * sine(0.43, 0) + 0.2 * sine(0.9, 1), 0.25 * sine(0.71, 2),
+                   0.55 * sine(0.37, 0.5));
+    const Vec3 turn(0.35 * sine(0.53, 1.3), 0.85 * sine(0.47, 0.2), 0.25 * sine(0.61, 2.1));
+    const Quat rotation = Eigen::AngleAxisd(peak_rad_s * turn.y(), Vec3::UnitY()) *
+                          Eigen::AngleAxisd(peak_rad_s * turn.x(), Vec3::UnitX()) *
+                          Eigen::AngleAxisd(peak_rad_s * turn.z(), Vec3::UnitZ());
+    return Rigid3{rotation, middle_in_room + peak_m_s * way};
+  };
+}
+
+}  // namespace vindu

@@ -1,0 +1,218 @@
+// The filter of one head, its association with dots, and the masks of reflections.
+#include "tracker/joint/head_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "scene.h"
+#include "tracker/joint/association.h"
+#include "tracker/joint/camera_watch.h"
+#include "tracker/joint/static_dots.h"
+
+namespace vindu {
+namespace {
+
+using namespace test;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+HeadState known_at(const Rigid3& head, Time time, double sigma_m = 0.01) {
+  PoseFit fit{.room_from_head = head};
+  fit.information.diagonal().head<3>().setConstant(1 / (sigma_m * sigma_m));
+  fit.information.diagonal().tail<3>().setConstant(1 / std::pow(radians(3), 2));
+  return state_of(fit, time);
+}
+
+TEST(HeadFilter, moves_on_with_velocity_and_acceleration) {
+  HeadState state = known_at({Quat::Identity(), {0, 1.6, 2}}, Time{});
+  state.move.velocity = {0.4, 0, -0.2};
+  state.turn.velocity = {0, 0.5, 0};
+  propagate(state, Time{} + milliseconds(500), {});
+  EXPECT_LT((state.room_from_head.translation - Vec3(0.2, 1.6, 1.9)).norm(), 1e-12);
+  EXPECT_NEAR(state.room_from_head.rotation.angularDistance(Quat::Identity()), 0.25, 1e-12);
+}
+
+TEST(HeadFilter, comes_to_rest_when_damped) {
+  HeadState state = known_at({}, Time{});
+  state.move.velocity = {1, 0, 0};
+  for (int i = 1; i <= 100; ++i)
+    propagate(state, Time{} + milliseconds(10 * i), {}, {.damping = milliseconds(100)});
+  EXPECT_NEAR(state.room_from_head.translation.x(), 0.1, 1e-4);  // velocity times time constant
+  EXPECT_LT(state.move.velocity.norm(), 1e-3);
+}
+
+TEST(HeadFilter, grows_its_covariance_alike_in_one_step_and_in_many) {
+  HeadState one = known_at({}, Time{}), many = one;
+  one.turn.velocity = many.turn.velocity = {0.2, 0.7, -0.1};
+  propagate(one, Time{} + milliseconds(64), {});
+  for (int i = 1; i <= 64; ++i) propagate(many, Time{} + milliseconds(i), {});
+  EXPECT_LT((one.covariance - many.covariance).norm(), 0.01 * one.covariance.norm());
+}
+
+TEST(HeadFilter, expects_a_dot_as_uncertain_as_it_really_is) {
+  const CameraModel camera = cameras_behind(2)[0];
+  const Rigid3 head{Quat::Identity(), {0.1, 1.65, 2}};
+  const HeadState state = known_at(head, Time{}, 0.005);
+  const auto expected = expect_dot(state, camera, kFourLeds[0]);
+  ASSERT_TRUE(expected);
+  Random random(1);
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  constexpr int kTrials = 4000;
+  for (int i = 0; i < kTrials; ++i) {
+    const auto noise = [&](double sigma) {
+      return Vec3(random.normal(sigma), random.normal(sigma), random.normal(sigma));
+    };
+    const Rigid3 other{rotation_of(noise(radians(3))) * head.rotation,
+                       head.translation + noise(0.005)};
+    const Vec2 off = dot_of(camera, other, kFourLeds[0]) - expected->raw_px;
+    scatter += off * off.transpose() / kTrials;
+  }
+  EXPECT_LT((scatter - expected->covariance_px2).norm(), 0.1 * scatter.norm());
+}
+
+TEST(HeadFilter, stays_a_covariance_through_a_thousand_dots) {
+  const auto cameras = cameras_behind(2);
+  Random random(2);
+  HeadState state = known_at({Quat::Identity(), {0, 1.65, 2}}, Time{});
+  for (int i = 1; i <= 1000; ++i) {
+    propagate(state, Time{} + milliseconds(5 * i), noise_of_motion(state));
+    const CameraModel& camera = cameras[static_cast<std::size_t>(i % 2)];
+    const auto expected = expect_dot(state, camera, kFourLeds[static_cast<std::size_t>(i % 4)]);
+    ASSERT_TRUE(expected);
+    correct(state, *expected, expected->raw_px + Vec2(random.normal(0.5), random.normal(0.5)),
+            0.36 * Eigen::Matrix2d::Identity());
+    const Eigen::SelfAdjointEigenSolver<Mat18> eigen(state.covariance, Eigen::EigenvaluesOnly);
+    ASSERT_GT(eigen.eigenvalues().minCoeff(), 0);
+  }
+}
+
+TEST(HeadFilter, predicts_a_moving_head_and_leaves_a_still_one) {
+  HeadState state = known_at({}, Time{});
+  state.move.velocity = {0.5, 0, 0};
+  EXPECT_NEAR(predicted(state, milliseconds(40)).room_from_head.translation.x(), 0.02, 1e-12);
+  EXPECT_NEAR(predicted(state, seconds(3)).room_from_head.translation.x(), 0.03, 1e-12);  // 60 ms
+  state.move.velocity = {0.005, 0, 0};
+  EXPECT_EQ(predicted(state, milliseconds(40)).room_from_head.translation.x(), 0);
+}
+
+class AssociationTest : public testing::Test {
+ protected:
+  TimedDots seen_of(const Rigid3& head, int camera, Time time) const {
+    TimedDots seen{.camera = camera, .captured = time, .dots = {}};
+    for (const Vec3& led : leds_[0]) {
+      const Vec2 raw_px = dot_of(cameras_[static_cast<std::size_t>(camera)], head, led);
+      seen.dots.push_back({std::round(raw_px.x()), std::round(raw_px.y()), 3});
+    }
+    return seen;
+  }
+
+  std::vector<CameraModel> cameras_ = cameras_behind(2);
+  std::vector<std::vector<Vec3>> leds_ = {kFourLeds};
+  Rigid3 head_{Quat::Identity(), {0, 1.65, 2}};
+  std::vector<HeadTrack> heads_ = {{known_at(head_, Time{}), Time{}}};
+};
+
+TEST_F(AssociationTest, gives_each_dot_its_led_whatever_their_order) {
+  TimedDots seen = seen_of(head_, 0, Time{} + milliseconds(10));
+  std::swap(seen.dots[0], seen.dots[2]);
+  std::swap(seen.dots[1], seen.dots[3]);
+  const auto result = associate(seen, cameras_[0], leds_, heads_);
+  ASSERT_EQ(result.accepted.size(), 4u);
+  EXPECT_EQ(result.expected, 4);
+  const int led_of_dot[] = {2, 3, 0, 1};
+  for (const AcceptedDot& dot : result.accepted) EXPECT_EQ(dot.led, led_of_dot[dot.dot]);
+}
+
+TEST_F(AssociationTest, leaves_out_false_dots_and_does_with_missing_leds) {
+  TimedDots seen = seen_of(head_, 0, Time{} + milliseconds(10));
+  seen.dots[1] = {900, 100, 3};
+  seen.dots.push_back({20, 700, 3});
+  const auto result = associate(seen, cameras_[0], leds_, heads_);
+  EXPECT_EQ(result.accepted.size(), 3u);
+  for (const AcceptedDot& dot : result.accepted) EXPECT_NE(dot.dot, 1u);
+}
+
+TEST_F(AssociationTest, takes_a_masked_dot_only_where_an_led_must_be) {
+  TimedDots seen = seen_of(head_, 0, Time{} + milliseconds(10));
+  seen.masked.fill(true);
+  EXPECT_EQ(associate(seen, cameras_[0], leds_, heads_).accepted.size(), 4u);
+  heads_[0].state->covariance.diagonal().head<3>().setConstant(0.05 * 0.05);
+  TimedDots aside =
+      seen_of({head_.rotation, head_.translation + Vec3(0.02, 0, 0)}, 0, Time{} + milliseconds(20));
+  aside.masked.fill(true);
+  EXPECT_TRUE(associate(aside, cameras_[0], leds_, heads_).accepted.empty());
+}
+
+TEST_F(AssociationTest, doubts_a_head_of_which_all_dots_stand_aside) {
+  const Rigid3 aside{head_.rotation, head_.translation + Vec3(0.02, 0.01, 0)};
+  heads_[0].state->covariance.diagonal().head<3>().setConstant(1e-6);
+  heads_[0].state->covariance.diagonal().segment<3>(9).setConstant(1e-6);
+  heads_[0].state->covariance.diagonal().segment<3>(3).setConstant(1e-6);
+  for (int i = 1; i <= 8; ++i)
+    associate(seen_of(aside, i % 2, Time{} + milliseconds(5 * i)), cameras_[i % 2], leds_, heads_);
+  EXPECT_LT((heads_[0].state->room_from_head.translation - aside.translation).norm(), 0.004);
+}
+
+TEST_F(AssociationTest, gives_up_a_head_that_is_not_seen) {
+  TimedDots empty{.camera = 0, .captured = Time{} + milliseconds(240), .dots = {}};
+  associate(empty, cameras_[0], leds_, heads_);
+  EXPECT_TRUE(heads_[0].state);
+  empty.captured = Time{} + milliseconds(260);
+  associate(empty, cameras_[0], leds_, heads_);
+  EXPECT_FALSE(heads_[0].state);
+}
+
+TEST(StaticDots, mask_what_stands_still_for_five_seconds) {
+  StaticDots dots;
+  for (int i = 0; i <= 49; ++i) dots.watch({300 + (i % 2), 200}, Time{} + milliseconds(100 * i));
+  EXPECT_FALSE(dots.masked({300, 200}));
+  for (int i = 50; i <= 52; ++i) dots.watch({300, 200}, Time{} + milliseconds(100 * i));
+  EXPECT_TRUE(dots.masked({305, 203}));
+  EXPECT_FALSE(dots.masked({312, 200}));
+}
+
+TEST(StaticDots, do_not_mask_what_moves_or_belongs_to_a_head) {
+  StaticDots dots;
+  for (int i = 0; i <= 100; ++i) {
+    const Time time = Time{} + milliseconds(100 * i);
+    dots.watch({100 + i, 500}, time);
+    dots.watch({300, 200}, time);
+    if (i % 20 == 0) dots.release({301, 200}, time);
+  }
+  EXPECT_TRUE(dots.masks_px().empty());
+}
+
+TEST(StaticDots, forget_a_mask_that_hid_nothing_for_ten_minutes_but_not_the_background) {
+  StaticDots dots({}, {{700, 700}});
+  for (int i = 0; i <= 60; ++i) dots.watch({300, 200}, Time{} + milliseconds(100 * i));
+  dots.watch({10, 10}, Time{} + std::chrono::minutes(12));
+  EXPECT_FALSE(dots.masked({300, 200}));
+  EXPECT_TRUE(dots.masked({700, 700}));
+}
+
+TEST(CameraWatch, names_a_camera_that_fits_nothing_for_a_second_and_takes_it_back) {
+  CameraWatch watch;
+  for (int i = 0; i < 20; ++i) watch.judge(false);
+  EXPECT_FALSE(watch.moved());
+  for (int i = 0; i < 20; ++i) watch.judge(false);
+  EXPECT_TRUE(watch.moved());
+  EXPECT_GT(watch.distrust(), 1);
+  for (int i = 0; i < 40; ++i) watch.judge(true);
+  EXPECT_FALSE(watch.moved());
+}
+
+TEST(CameraWatch, lets_a_camera_doubt_a_head_three_times_in_a_row) {
+  CameraWatch watch;
+  Association doubt{.accepted = {{}}, .widened = true}, fit{.accepted = {{}}};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(watch.may_widen());
+    watch.count(doubt);
+  }
+  EXPECT_FALSE(watch.may_widen());
+  for (int i = 0; i < 40; ++i) watch.count(fit);
+  EXPECT_TRUE(watch.may_widen());
+}
+
+}  // namespace
+}  // namespace vindu

@@ -1,0 +1,188 @@
+// The whole joint method on reports: late ones, lost heads, several heads, a camera that was
+// bumped.
+#include "tracker/joint/joint_method.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scene.h"
+
+namespace vindu {
+namespace {
+
+using namespace test;
+using std::chrono::milliseconds;
+
+struct Report {
+  Time arrival{};
+  Observation seen;
+};
+
+class JointMethodTest : public testing::Test {
+ protected:
+  JointMethodTest() {
+    for (int i = 0; i < 2; ++i) {
+      CameraConfig camera;
+      camera.name = i ? "right" : "left";
+      camera.room_from_camera = look_at({i ? 1.0 : -1.0, 2.3, 5}, {0, 1.65, 2});
+      configs_.push_back(camera);
+    }
+    heads_[0].leds_in_head = kThreeLeds;
+  }
+
+  static Rigid3 walking(double t_s) {
+    return {rotation_of({0, 0.3 * std::sin(1.9 * t_s), 0}),
+            {0.25 * std::sin(1.3 * t_s), 1.65, 2 + 0.1 * std::sin(0.9 * t_s)}};
+  }
+
+  Observation seen_by(int camera, const std::vector<Rigid3>& heads, Time arrival) {
+    const CameraModel model(configs_[static_cast<std::size_t>(camera)]);
+    Observation seen{camera, arrival, {}};
+    for (std::size_t h = 0; h < heads.size(); ++h)
+      for (const Vec3& led : heads_[h].leds_in_head) {
+        const Vec2 raw_px = dot_of(model, heads[h], led);
+        seen.dots.push_back({std::round(raw_px.x() + random_.normal(0.3)),
+                             std::round(raw_px.y() + random_.normal(0.3)), 3});
+      }
+    return seen;
+  }
+
+  /// Both cameras report `heads_at(t)` every 10 ms, from a time to a time.
+  template <class Heads>
+  void feed(JointMethod& method, double from_s, double to_s, Heads heads_at) {
+    for (int k = static_cast<int>(std::lround(from_s * 100)); k < std::lround(to_s * 100); ++k) {
+      const Time time{milliseconds(10 * k)};
+      for (int camera = 0; camera < 2; ++camera)
+        method.absorb(seen_by(camera, heads_at(0.01 * k), time));
+      method.update(time);
+    }
+  }
+
+  double error_m(JointMethod& method, std::size_t head, Time time, const Rigid3& truth) {
+    const auto pose = method.pose(head, time);
+    return pose ? (pose->room_from_head.translation - truth.translation).norm() : 1e9;
+  }
+
+  std::vector<CameraConfig> configs_;
+  std::vector<HeadConfig> heads_ = std::vector<HeadConfig>(1);
+  Random random_{1};
+};
+
+TEST_F(JointMethodTest, finds_and_follows_a_walking_head) {
+  JointMethod method(configs_, heads_);
+  EXPECT_FALSE(method.pose(0, Time{}));
+  feed(method, 0, 4, [](double t) { return std::vector{walking(t)}; });
+  const Time now{milliseconds(3990)}, photon = now + milliseconds(30);
+  const auto pose = method.pose(0, photon);
+  ASSERT_TRUE(pose);
+  EXPECT_EQ(pose->level, TrackingLevel::six_dof);
+  EXPECT_EQ(pose->time, photon);
+  EXPECT_LE(pose->capture_time, now);
+  EXPECT_LT(error_m(method, 0, photon, walking(4.02)), 0.006);
+}
+
+TEST_F(JointMethodTest, gives_the_same_for_late_reports_as_for_timely_ones) {
+  const auto run = [&](bool late) {
+    random_ = Random(5);
+    std::vector<Observation> all;
+    for (int k = 0; k < 300; ++k)
+      for (int camera = 0; camera < 2; ++camera)
+        all.push_back(seen_by(camera, {walking(0.01 * k)}, Time{milliseconds(10 * k)}));
+    // Late: of the last ten reports those of the right camera come after those of the left.
+    if (late) std::ranges::stable_sort(all.end() - 20, all.end(), {}, &Observation::camera);
+    JointMethod method(configs_, heads_);
+    for (const Observation& seen : all) {
+      method.absorb(seen);
+      method.update(all.back().arrival);
+    }
+    return *method.pose(0, all.back().arrival);
+  };
+  const PoseSample timely = run(false), late = run(true);
+  EXPECT_LT((timely.room_from_head.translation - late.room_from_head.translation).norm(), 1e-4);
+}
+
+TEST_F(JointMethodTest, holds_a_head_that_is_gone_and_finds_it_again_elsewhere) {
+  JointMethod method(configs_, heads_);
+  feed(method, 0, 1, [](double) { return std::vector{walking(0)}; });
+  feed(method, 1, 1.5, [](double) { return std::vector<Rigid3>{}; });
+  const auto held = method.pose(0, Time{milliseconds(1490)});
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->level, TrackingLevel::held);
+  EXPECT_LT((held->room_from_head.translation - walking(0).translation).norm(), 0.02);
+  feed(method, 1.5, 4, [](double) { return std::vector<Rigid3>{}; });
+  EXPECT_EQ(method.pose(0, Time{milliseconds(3990)})->level, TrackingLevel::lost);
+  const Rigid3 elsewhere{rotation_of({0, 0.2, 0}), {-0.3, 1.6, 2.2}};
+  feed(method, 4, 4.2, [&](double) { return std::vector{elsewhere}; });
+  EXPECT_LT(error_m(method, 0, Time{milliseconds(4190)}, elsewhere), 0.01);
+}
+
+TEST_F(JointMethodTest, tracks_two_people_with_unlike_helmets) {
+  heads_.resize(2);
+  heads_[1].name = "guest";
+  heads_[1].leds_in_head = kFourLeds;
+  const auto both = [](double t) {
+    Rigid3 other = walking(1.3 * t + 1);
+    other.translation += Vec3(-0.55, -0.05, 0.3);
+    Rigid3 first = walking(t);
+    first.translation.x() = 0.4 + 0.3 * first.translation.x();
+    return std::vector{first, other};
+  };
+  JointMethod method(configs_, heads_);
+  feed(method, 0, 5, both);
+  const Time now{milliseconds(4990)};
+  EXPECT_LT(error_m(method, 0, now, both(4.99)[0]), 0.01);
+  EXPECT_LT(error_m(method, 1, now, both(4.99)[1]), 0.01);
+}
+
+TEST_F(JointMethodTest, masks_a_lamp_that_stands_beside_the_walker) {
+  JointMethod method(configs_, heads_);
+  for (int k = 0; k < 800; ++k) {
+    const Time time{milliseconds(10 * k)};
+    for (int camera = 0; camera < 2; ++camera) {
+      Observation seen = seen_by(camera, {walking(0.01 * k)}, time);
+      seen.dots.push_back({512, 600, 2});
+      method.absorb(seen);
+    }
+    method.update(time);
+  }
+  for (const CameraHealth& health : method.health()) EXPECT_EQ(health.masks, 1u);
+  EXPECT_LT(error_m(method, 0, Time{milliseconds(7990)}, walking(7.99)), 0.006);
+}
+
+TEST_F(JointMethodTest, names_the_one_of_three_cameras_that_was_bumped) {
+  CameraConfig middle = configs_[0];
+  middle.room_from_camera = look_at({0, 2.4, 5.2}, {0, 1.65, 2});
+  configs_.push_back(middle);
+  JointMethod method(configs_, heads_);
+  const auto feed_three = [&](int from, int to) {
+    for (int k = from; k < to; ++k) {
+      const Time time{milliseconds(10 * k)};
+      for (int camera = 0; camera < 3; ++camera)
+        method.absorb(seen_by(camera, {walking(0.01 * k)}, time));
+      method.update(time);
+    }
+  };
+  feed_three(0, 300);
+  EXPECT_FALSE(method.health()[2].moved);
+  configs_[2].room_from_camera.rotation =
+      configs_[2].room_from_camera.rotation * rotation_of({0, radians(1.2), 0});
+  feed_three(300, 900);
+  EXPECT_TRUE(method.health()[2].moved);
+  EXPECT_FALSE(method.health()[0].moved);
+  EXPECT_FALSE(method.health()[1].moved);
+  EXPECT_LT(error_m(method, 0, Time{milliseconds(8990)}, walking(8.99)), 0.02);
+}
+
+TEST_F(JointMethodTest, in_position_mode_needs_one_led_in_two_cameras) {
+  JointMethod method(configs_, heads_, {.position_only = true});
+  heads_[0].leds_in_head = {{0, 0, 0}};
+  feed(method, 0, 2, [](double t) { return std::vector{walking(t)}; });
+  const auto pose = method.pose(0, Time{milliseconds(1990)});
+  ASSERT_TRUE(pose);
+  EXPECT_EQ(pose->level, TrackingLevel::position);
+  EXPECT_LT(pose->room_from_head.rotation.angularDistance(Quat::Identity()), 1e-9);
+}
+
+}  // namespace
+}  // namespace vindu

@@ -1,0 +1,160 @@
+#include "tracker/joint/acquisition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tracker/joint/assignment.h"
+#include "tracker/joint/candidates.h"
+
+namespace vindu {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+using Labels = std::vector<std::vector<int>>;
+
+class Contest {
+ public:
+  Contest(std::span<const CameraModel> cameras, std::span<const CameraView> views,
+          std::span<const Vec3> leds, const AcquisitionOptions& options)
+      : cameras_(cameras), views_(views), leds_(leds), options_(options) {
+    const Vec3 inverse = options.facing_sigma_rad.cwiseInverse();
+    prior_.information.diagonal().tail<3>() = inverse.cwiseProduct(inverse);
+  }
+
+  /// Completes a rough pose with all dots that fit it, in rounds with a shrinking gate.
+  void enter(const Rigid3& rough) {
+    Rigid3 pose = rough;
+    std::optional<PoseFit> fit;
+    Labels labels;
+    for (const double gate_px : {40.0, 12.0, 0.0}) {
+      labels = label(pose, gate_px);
+      const auto sightings = sightings_of(labels);
+      if (sightings.size() < 2) return;
+      fit = fit_pose(cameras_, sightings, pose, prior_);
+      if (!fit) return;
+      pose = fit->room_from_head;
+    }
+    judge(*fit, std::move(labels));
+  }
+
+  std::optional<FoundHead> winner() {
+    if (entries_.empty()) return std::nullopt;
+    const auto best = std::ranges::min_element(entries_, {}, &FoundHead::cost);
+    for (const FoundHead& rival : entries_)
+      if (elsewhere(rival, *best)) best->margin = std::min(best->margin, rival.cost - best->cost);
+    if (best->margin < options_.least_margin) return std::nullopt;
+    FoundHead found = *best;
+    // The prior has done its work: it must not pull at a pose that the dots fix by themselves.
+    const bool free = options_.facing_sigma_rad.minCoeff() > radians(5);
+    if (found.level == TrackingLevel::six_dof && free)
+      if (const auto fit =
+              fit_pose(cameras_, sightings_of(found.led_of_dot), found.fit.room_from_head))
+        found.fit = *fit;
+    return found;
+  }
+
+ private:
+  const CameraModel& camera(const CameraView& view) const {
+    return cameras_[static_cast<std::size_t>(view.camera)];
+  }
+
+  /// In each view the cheapest pairing of dots and LEDs; `gate_px` zero: by the dots' own sigma.
+  Labels label(const Rigid3& pose, double gate_px) const {
+    Labels labels;
+    for (const CameraView& view : views_) {
+      const double sigma_px = gate_px > 0 ? gate_px / 4 : view.sigma_px;
+      CostMatrix costs = CostMatrix::Constant(static_cast<Eigen::Index>(view.dots_px.size()),
+                                              static_cast<Eigen::Index>(leds_.size()), kFar);
+      for (Eigen::Index led = 0; led < costs.cols(); ++led) {
+        const auto dot = dot_of_led(camera(view), pose, leds_[static_cast<std::size_t>(led)]);
+        if (!dot) continue;
+        for (Eigen::Index i = 0; i < costs.rows(); ++i)
+          costs(i, led) = (view.dots_px[static_cast<std::size_t>(i)] - dot->raw_px).squaredNorm() /
+                          (sigma_px * sigma_px);
+      }
+      labels.push_back(assign(costs, options_.false_dot_cost));
+    }
+    return labels;
+  }
+
+  std::vector<LedSighting> sightings_of(const Labels& labels) const {
+    std::vector<LedSighting> sightings;
+    for (std::size_t v = 0; v < views_.size(); ++v)
+      for (std::size_t i = 0; i < labels[v].size(); ++i)
+        if (labels[v][i] >= 0)
+          sightings.push_back({views_[v].camera, leds_[static_cast<std::size_t>(labels[v][i])],
+                               views_[v].dots_px[i], views_[v].sigma_px});
+    return sightings;
+  }
+
+  void judge(const PoseFit& fit, Labels labels) {
+    const TrackingLevel level = level_of(fit.dot_information);
+    if (level > options_.least_level || fit.rms_px > options_.largest_rms_px) return;
+    double cost = fit.cost;
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      const auto false_dots = std::ranges::count(labels[v], -1);
+      const auto seen = static_cast<double>(labels[v].size()) - static_cast<double>(false_dots);
+      cost += options_.false_dot_cost * static_cast<double>(false_dots) +
+              options_.missing_led_cost * (static_cast<double>(leds_.size()) - seen);
+    }
+    entries_.push_back({fit, level, std::move(labels), cost, kFar});
+  }
+
+  static bool elsewhere(const FoundHead& a, const FoundHead& b) {
+    constexpr double kSame_m = 0.03, kSame_rad = radians(12);
+    const Rigid3 &p = a.fit.room_from_head, &q = b.fit.room_from_head;
+    return (p.translation - q.translation).norm() > kSame_m ||
+           p.rotation.angularDistance(q.rotation) > kSame_rad;
+  }
+
+  std::span<const CameraModel> cameras_;
+  std::span<const CameraView> views_;
+  std::span<const Vec3> leds_;
+  const AcquisitionOptions& options_;
+  PosePrior prior_;
+  std::vector<FoundHead> entries_;
+};
+
+/// Pairs of views with dots, the widest apart first: they fix depth best.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::span<const CameraModel> cameras,
+                                                          std::span<const CameraView> views) {
+  constexpr std::size_t kPairs = 6;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < views.size(); ++a)
+    for (std::size_t b = a + 1; b < views.size(); ++b)
+      if (!views[a].dots_px.empty() && !views[b].dots_px.empty()) pairs.emplace_back(a, b);
+  const auto worth = [&](const std::pair<std::size_t, std::size_t>& pair) {
+    const CameraView &a = views[pair.first], &b = views[pair.second];
+    const auto place = [&](const CameraView& view) {
+      return cameras[static_cast<std::size_t>(view.camera)].room_from_camera().translation;
+    };
+    const auto dots = static_cast<double>(std::min(a.dots_px.size(), b.dots_px.size()));
+    return std::min(dots, 3.0) * 10 + std::min((place(a) - place(b)).norm(), 3.0);
+  };
+  std::ranges::stable_sort(pairs, std::greater{}, worth);
+  if (pairs.size() > kPairs) pairs.resize(kPairs);
+  return pairs;
+}
+
+}  // namespace
+
+std::optional<FoundHead> find_head(std::span<const CameraModel> cameras,
+                                   std::span<const CameraView> views,
+                                   std::span<const Vec3> leds_in_head,
+                                   const AcquisitionOptions& options) {
+  Contest contest(cameras, views, leds_in_head, options);
+  for (const auto& [a, b] : pairs_of(cameras, views))
+    for (const Rigid3& pose : candidates_from_pair(cameras, views[a], views[b], leds_in_head,
+                                                   /*least_leds=*/1, options.candidates_kept))
+      contest.enter(pose);
+  if (const auto found = contest.winner()) return found;
+  for (const CameraView& view : views)
+    if (view.dots_px.size() >= 3)
+      for (const Rigid3& pose : candidates_from_one(cameras, view, leds_in_head))
+        contest.enter(pose);
+  return contest.winner();
+}
+
+}  // namespace vindu

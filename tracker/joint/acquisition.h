@@ -1,0 +1,46 @@
+// Finding a head without knowing where it was: which dot of which camera is which LED, and the pose
+// that follows. Nothing is sorted; candidates come from geometry, are completed with all dots of
+// all cameras, and compete. What a symmetric layout leaves open, the prior decides: heads are
+// upright and, by and large, face the wall.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tracker/joint/pose_fit.h"
+
+namespace vindu {
+
+/// The dots of one camera that may be LEDs; at most 16.
+struct CameraView {
+  int camera = 0;
+  std::vector<Vec2> dots_px;  ///< raw
+  double sigma_px = 0.6;      ///< of each dot, with what the head may have moved since the others'
+};
+
+struct AcquisitionOptions {
+  Vec3 facing_sigma_rad = {radians(25), radians(50), radians(20)};  ///< pitch, yaw, roll in room
+  double false_dot_cost = 16;   ///< of a dot that is no LED, in sigmas squared
+  double missing_led_cost = 3;  ///< of an LED that a camera should see and does not
+  double least_margin = 12;     ///< by which the best beats a rival that is elsewhere
+  double largest_rms_px = 2.5;
+  TrackingLevel least_level = TrackingLevel::hybrid;  ///< that the dots alone must reach
+  std::size_t candidates_kept = 16;                   ///< of each pair of cameras, to be fitted
+};
+
+struct FoundHead {
+  PoseFit fit;  ///< without the prior, where the dots alone fix the pose
+  TrackingLevel level = TrackingLevel::lost;
+  std::vector<std::vector<int>> led_of_dot;  ///< for each view, for each dot: its LED or -1
+  double cost = 0;                           ///< the lower the better
+  double margin = 0;                         ///< over the best rival; infinite without one
+};
+
+/// Empty when there is no candidate, or two are too close to choose.
+std::optional<FoundHead> find_head(std::span<const CameraModel> cameras,
+                                   std::span<const CameraView> views,
+                                   std::span<const Vec3> leds_in_head,
+                                   const AcquisitionOptions& options = {});
+
+}  // namespace vindu

@@ -1,0 +1,175 @@
+#include "tracker/joint/association.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+
+#include "tracker/joint/assignment.h"
+
+namespace vindu {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// An LED of a tracked head and where its dot is expected.
+struct Column {
+  int head = 0;
+  int led = 0;
+  ExpectedDot expected;
+};
+
+void move_on(HeadTrack& head, Time to, const AssociationOptions& options) {
+  if (!head.state) return;
+  if (to - head.seen > options.lost_after) return head.state.reset();
+  MotionNoise noise = noise_of_motion(*head.state);
+  if (!options.turns) noise.turn_rad2_s5 = 0;
+  const bool coasts = to - head.seen > options.coasts_after;
+  propagate(*head.state, std::max(to, head.state->time), noise,
+            {.damping = coasts ? options.damping : Duration::zero()});
+}
+
+/// Pixels, and what the time of capture leaves open for a dot that moves.
+Eigen::Matrix2d noise_of(const TimedDots& seen, const ExpectedDot& expected) {
+  const Vec2 by_time_px = seen.time_sigma_s * expected.raw_px_s;
+  return seen.dot_sigma_px * seen.dot_sigma_px * Eigen::Matrix2d::Identity() +
+         by_time_px * by_time_px.transpose();
+}
+
+double distance2(const Eigen::Matrix2d& covariance_px2, const Vec2& residual_px) {
+  return residual_px.dot(covariance_px2.inverse() * residual_px);
+}
+
+bool in_picture(const Vec2& raw_px) {
+  return raw_px.x() >= 0 && raw_px.x() < kWiimoteWidth_px && raw_px.y() >= 0 &&
+         raw_px.y() < kWiimoteHeight_px;
+}
+
+Vec2 position(const Dot& dot) { return {dot.x_px, dot.y_px}; }
+
+std::vector<Column> columns_of(const CameraModel& camera,
+                               std::span<const std::vector<Vec3>> leds_of_heads,
+                               std::span<const HeadTrack> heads) {
+  std::vector<Column> columns;
+  for (std::size_t head = 0; head < heads.size(); ++head) {
+    if (!heads[head].state) continue;
+    for (std::size_t led = 0; led < leds_of_heads[head].size(); ++led)
+      if (const auto dot = expect_dot(*heads[head].state, camera, leds_of_heads[head][led]))
+        columns.push_back({static_cast<int>(head), static_cast<int>(led), *dot});
+  }
+  return columns;
+}
+
+bool allowed(const TimedDots& seen, std::size_t dot, const Column& column) {
+  constexpr double kMustBe_px = 6;
+  return !seen.masked[dot] ||
+         (position(seen.dots[dot]) - column.expected.raw_px).norm() < kMustBe_px;
+}
+
+template <class Cost>
+CostMatrix costs_of(const TimedDots& seen, const std::vector<Column>& columns, Cost cost) {
+  CostMatrix costs(static_cast<Eigen::Index>(seen.dots.size()),
+                   static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < seen.dots.size(); ++i)
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      costs(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) =
+          allowed(seen, i, columns[c])
+              ? cost(columns[c], position(seen.dots[i]) - columns[c].expected.raw_px)
+              : kFar;
+  return costs;
+}
+
+/// Pairs of dots and columns, the surest first.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const CostMatrix& costs, double gate) {
+  const std::vector<int> assigned = assign(costs, gate);
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < assigned.size(); ++i)
+    if (assigned[i] >= 0) pairs.emplace_back(i, static_cast<std::size_t>(assigned[i]));
+  std::ranges::sort(pairs, {}, [&](const auto& pair) {
+    return costs(static_cast<Eigen::Index>(pair.first), static_cast<Eigen::Index>(pair.second));
+  });
+  return pairs;
+}
+
+/// Each correction sharpens what is expected of the next dot, which must still fit.
+std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& camera,
+                                    std::span<const std::vector<Vec3>> leds_of_heads,
+                                    std::span<HeadTrack> heads, double gate) {
+  const std::vector<Column> columns = columns_of(camera, leds_of_heads, heads);
+  const auto in_sigmas = [&](const Column& column, const Vec2& residual_px) {
+    return distance2(column.expected.covariance_px2 + noise_of(seen, column.expected), residual_px);
+  };
+  std::vector<AcceptedDot> accepted;
+  for (const auto& [i, c] : pairs_of(costs_of(seen, columns, in_sigmas), gate)) {
+    const auto& [at_head, led, before] = columns[c];
+    HeadTrack& head = heads[static_cast<std::size_t>(at_head)];
+    const auto expected =
+        expect_dot(*head.state, camera,
+                   leds_of_heads[static_cast<std::size_t>(at_head)][static_cast<std::size_t>(led)]);
+    if (!expected) continue;
+    const Eigen::Matrix2d noise = noise_of(seen, *expected);
+    const Vec2 residual = position(seen.dots[i]) - expected->raw_px;
+    const double square = distance2(expected->covariance_px2 + noise, residual);
+    if (square > gate) continue;
+    correct(*head.state, *expected, position(seen.dots[i]), seen.distrust * seen.distrust * noise);
+    head.seen = std::max(head.seen, seen.captured);
+    accepted.push_back({i, at_head, led, residual, expected->raw_px_s, square});
+  }
+  return accepted;
+}
+
+/// Two or more dots that stand as the head's LEDs do, but all aside by the same: it is not where it
+/// is believed to be.
+bool displaced(const TimedDots& seen, const std::vector<Column>& columns) {
+  constexpr double kFarthest_px = 60, kShape_px = 3;
+  const auto in_pixels = [](const Column&, const Vec2& residual_px) {
+    return residual_px.squaredNorm();
+  };
+  const auto pairs = pairs_of(costs_of(seen, columns, in_pixels), kFarthest_px * kFarthest_px);
+  if (pairs.size() < 2) return false;
+  const auto shift_of = [&](const auto& pair) -> Vec2 {
+    return position(seen.dots[pair.first]) - columns[pair.second].expected.raw_px;
+  };
+  Vec2 mean = Vec2::Zero();
+  for (const auto& pair : pairs) mean += shift_of(pair) / static_cast<double>(pairs.size());
+  return std::ranges::all_of(
+      pairs, [&](const auto& pair) { return (shift_of(pair) - mean).norm() < kShape_px; });
+}
+
+/// A head of which this camera accepts nothing, though its dots have the head's shape, is known
+/// less well than it seemed.
+bool widen_displaced(const TimedDots& seen, const CameraModel& camera,
+                     std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
+                     const std::vector<AcceptedDot>& accepted) {
+  bool any = false;
+  const std::vector<Column> columns = columns_of(camera, leds_of_heads, heads);
+  for (std::size_t head = 0; head < heads.size(); ++head) {
+    const auto of_head = [&](const auto& part) { return part.head == static_cast<int>(head); };
+    if (!heads[head].state || std::ranges::any_of(accepted, of_head)) continue;
+    std::vector<Column> own;
+    std::ranges::copy_if(columns, std::back_inserter(own), of_head);
+    if (!displaced(seen, own)) continue;
+    widen(*heads[head].state);
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+Association associate(const TimedDots& seen, const CameraModel& camera,
+                      std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
+                      const AssociationOptions& options) {
+  for (HeadTrack& head : heads) move_on(head, seen.captured, options);
+  Association result;
+  for (const Column& column : columns_of(camera, leds_of_heads, heads))
+    if (in_picture(column.expected.raw_px)) ++result.expected;
+  if (result.expected == 0) return result;
+  result.accepted = correct_by(seen, camera, leds_of_heads, heads, options.gate);
+  result.widened = options.may_widen && seen.dots.size() >= 2 &&
+                   widen_displaced(seen, camera, leds_of_heads, heads, result.accepted);
+  if (result.widened)
+    result.accepted = correct_by(seen, camera, leds_of_heads, heads, options.gate);
+  return result;
+}
+
+}  // namespace vindu

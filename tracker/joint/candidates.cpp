@@ -1,0 +1,190 @@
+#include "tracker/joint/candidates.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+
+#include "tracker/triangulation.h"
+
+namespace vindu {
+namespace {
+
+constexpr double kLargestGap_rad = 8.0 / 1335;  // eight pixels of a Wiimote
+constexpr double kMotion_m = 0.01;              // of a head between two cameras' pictures
+constexpr double kSteepest_rad = radians(80);   // from upright and facing the wall
+constexpr std::size_t kDotsForOne = 6;          // of one camera: their triples are tried
+
+struct MetPoint {
+  std::size_t dot_a = 0, dot_b = 0;
+  Vec3 x_in_room = Vec3::Zero();
+  double sigma_m = 0;  // along the rays, where it is largest
+};
+
+struct Match {
+  std::vector<std::pair<std::size_t, std::size_t>> led_point;
+  double mismatch_m2 = 0;  // of distances, per pair
+};
+
+// Rays that cross at an angle alpha leave depth uncertain by D sigma / (sqrt 2 sin(alpha / 2)).
+std::vector<MetPoint> meeting_points(const CameraModel& camera_a, const CameraView& a,
+                                     const CameraModel& camera_b, const CameraView& b) {
+  std::vector<MetPoint> points;
+  for (std::size_t i = 0; i < a.dots_px.size(); ++i)
+    for (std::size_t j = 0; j < b.dots_px.size(); ++j) {
+      const Ray ray_a = camera_a.ray_through(a.dots_px[i]),
+                ray_b = camera_b.ray_through(b.dots_px[j]);
+      const auto met = triangulate(ray_a, ray_b);
+      if (!met) continue;
+      const double distance_m = (met->x_in_room - ray_a.origin_in_room).norm();
+      if (met->gap_m > kLargestGap_rad * distance_m + kMotion_m) continue;
+      const double half_sine = std::sqrt(
+          std::max(1e-6, 0.5 * (1 - ray_a.direction_in_room.dot(ray_b.direction_in_room))));
+      const double ray_sigma_m = distance_m * std::max(a.sigma_px, b.sigma_px) / 1335;
+      points.push_back({i, j, met->x_in_room, ray_sigma_m / (std::sqrt(2.0) * half_sine)});
+    }
+  return points;
+}
+
+/// All sets of pairs LED - point whose distances agree, each dot used once.
+class Matcher {
+ public:
+  Matcher(std::span<const Vec3> leds, const std::vector<MetPoint>& points, std::size_t least)
+      : leds_(leds), points_(points), least_(least) {}
+
+  std::vector<Match> matches() {
+    extend(0);
+    std::ranges::sort(found_, [](const Match& a, const Match& b) {
+      return a.led_point.size() != b.led_point.size() ? a.led_point.size() > b.led_point.size()
+                                                      : a.mismatch_m2 < b.mismatch_m2;
+    });
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 4000;  // matches; beyond, the picture is full of false dots
+
+  void extend(std::size_t led) {
+    if (found_.size() >= kMost) return;
+    if (current_.led_point.size() + leds_.size() - led < least_) return;
+    if (led == leds_.size()) return found_.push_back(current_);
+    for (std::size_t point = 0; point < points_.size(); ++point) {
+      const auto mismatch_m2 = mismatch(led, point);
+      if (!mismatch_m2) continue;
+      current_.led_point.emplace_back(led, point);
+      current_.mismatch_m2 += *mismatch_m2;
+      extend(led + 1);
+      current_.mismatch_m2 -= *mismatch_m2;
+      current_.led_point.pop_back();
+    }
+    extend(led + 1);
+  }
+
+  std::optional<double> mismatch(std::size_t led, std::size_t point) const {
+    double sum_m2 = 0;
+    for (const auto& [other_led, other] : current_.led_point) {
+      const MetPoint &p = points_[point], &q = points_[other];
+      if (p.dot_a == q.dot_a || p.dot_b == q.dot_b) return std::nullopt;
+      const double error_m =
+          (p.x_in_room - q.x_in_room).norm() - (leds_[led] - leds_[other_led]).norm();
+      if (std::abs(error_m) > kMotion_m + 3 * std::hypot(p.sigma_m, q.sigma_m)) return std::nullopt;
+      sum_m2 += error_m * error_m;
+    }
+    return sum_m2;
+  }
+
+  std::span<const Vec3> leds_;
+  const std::vector<MetPoint>& points_;
+  std::size_t least_;
+  Match current_;
+  std::vector<Match> found_;
+};
+
+bool upright(const Rigid3& room_from_head) {
+  return room_from_head.rotation.angularDistance(Quat::Identity()) < kSteepest_rad;
+}
+
+/// Of two LEDs: the least turn from facing the wall that points from one to the other.
+Rigid3 pose_of(const Match& match, std::span<const Vec3> leds,
+               const std::vector<MetPoint>& points) {
+  const auto count = static_cast<Eigen::Index>(match.led_point.size());
+  Eigen::Matrix3Xd in_head(3, count), in_room(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& [led, point] = match.led_point[static_cast<std::size_t>(i)];
+    in_head.col(i) = leds[led];
+    in_room.col(i) = points[point].x_in_room;
+  }
+  if (count >= 3) {
+    const Mat4 matrix = Eigen::umeyama(in_head, in_room, false);
+    return Rigid3::from(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>());
+  }
+  Rigid3 pose;
+  if (count == 2)
+    pose.rotation =
+        Quat::FromTwoVectors(in_head.col(1) - in_head.col(0), in_room.col(1) - in_room.col(0));
+  pose.translation = in_room.rowwise().mean() - pose.rotation * in_head.rowwise().mean();
+  return pose;
+}
+
+cv::Point2d in_plane(const CameraModel& camera, const Vec2& raw_px) {
+  const Vec3 direction =
+      camera.camera_from_room().rotation * camera.ray_through(raw_px).direction_in_room;
+  return {direction.x() / direction.z(), direction.y() / direction.z()};
+}
+
+void add_p3p(const CameraModel& camera, const std::vector<cv::Point3d>& leds,
+             const std::vector<cv::Point2d>& dots, std::vector<Rigid3>& poses) {
+  std::vector<cv::Vec3d> turns, shifts;
+  cv::solveP3P(leds, dots, cv::Matx33d::eye(), cv::noArray(), turns, shifts, cv::SOLVEPNP_P3P);
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const Vec3 turn(turns[i][0], turns[i][1], turns[i][2]);
+    const Vec3 shift(shifts[i][0], shifts[i][1], shifts[i][2]);
+    if (!turn.allFinite() || !shift.allFinite() || shift.z() <= 0) continue;
+    const Rigid3 camera_from_head = {Quat(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized())),
+                                     shift};
+    const Rigid3 pose = camera.room_from_camera() * camera_from_head;
+    if (upright(pose)) poses.push_back(pose);
+  }
+}
+
+}  // namespace
+
+std::vector<Rigid3> candidates_from_pair(std::span<const CameraModel> cameras, const CameraView& a,
+                                         const CameraView& b, std::span<const Vec3> leds_in_head,
+                                         std::size_t least_leds, std::size_t kept) {
+  const auto points = meeting_points(cameras[static_cast<std::size_t>(a.camera)], a,
+                                     cameras[static_cast<std::size_t>(b.camera)], b);
+  std::vector<Rigid3> poses;
+  for (const Match& match : Matcher(leds_in_head, points, least_leds).matches()) {
+    const Rigid3 pose = pose_of(match, leds_in_head, points);
+    if (upright(pose)) poses.push_back(pose);
+    if (poses.size() == kept) break;
+  }
+  return poses;
+}
+
+std::vector<Rigid3> candidates_from_one(std::span<const CameraModel> cameras,
+                                        const CameraView& view,
+                                        std::span<const Vec3> leds_in_head) {
+  const CameraModel& camera = cameras[static_cast<std::size_t>(view.camera)];
+  const std::size_t dots = std::min(view.dots_px.size(), kDotsForOne), leds = leds_in_head.size();
+  std::vector<cv::Point2d> plane;
+  for (std::size_t i = 0; i < dots; ++i) plane.push_back(in_plane(camera, view.dots_px[i]));
+  const auto point = [&](std::size_t led) {
+    const Vec3& x = leds_in_head[led];
+    return cv::Point3d(x.x(), x.y(), x.z());
+  };
+  std::vector<Rigid3> poses;
+  for (std::size_t a = 0; a < dots; ++a)
+    for (std::size_t b = a + 1; b < dots; ++b)
+      for (std::size_t c = b + 1; c < dots; ++c)
+        for (std::size_t i = 0; i < leds; ++i)
+          for (std::size_t j = 0; j < leds; ++j)
+            for (std::size_t k = 0; k < leds; ++k)
+              if (i != j && j != k && k != i)
+                add_p3p(camera, {point(i), point(j), point(k)}, {plane[a], plane[b], plane[c]},
+                        poses);
+  return poses;
+}
+
+}  // namespace vindu

@@ -1,0 +1,204 @@
+#include "tracker/joint/head_filter.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "tracker/joint/rotation.h"
+
+namespace vindu {
+namespace {
+
+constexpr int kPosition = 0, kVelocity = 3, kRotation = 9, kTurning = 12;
+constexpr double kManoeuvre_s = 0.5;  // time constant of people's accelerations
+
+/// What a velocity and an acceleration have come to after a while, for each unit of them.
+struct Course {
+  double way_by_velocity_s = 0;
+  double way_by_acceleration_s2 = 0;
+  double velocity_left = 1;
+  double velocity_by_acceleration_s = 0;
+  double acceleration_left = 1;
+
+  Vec3 way(const Motion& motion) const {
+    return way_by_velocity_s * motion.velocity + way_by_acceleration_s2 * motion.acceleration;
+  }
+  Motion after(const Motion& motion) const {
+    return {velocity_left * motion.velocity + velocity_by_acceleration_s * motion.acceleration,
+            acceleration_left * motion.acceleration};
+  }
+};
+
+// Singer's model: a(t) = a exp(-t / T). Damped: v(t) = v exp(-t / damping), and no acceleration.
+Course course_of(double dt_s, Duration damping) {
+  if (damping > Duration::zero()) {
+    const double left = std::exp(-dt_s / seconds(damping));
+    return {seconds(damping) * (1 - left), 0, left, 0, left};
+  }
+  const double left = std::exp(-dt_s / kManoeuvre_s);
+  return {dt_s, kManoeuvre_s * kManoeuvre_s * (dt_s / kManoeuvre_s - 1 + left), 1,
+          kManoeuvre_s * (1 - left), left};
+}
+
+/// Rows of position, velocity and acceleration, each three, moved on.
+template <class Rows>
+void carry(Rows&& rows, const Course& course) {
+  rows.template topRows<3>() += course.way_by_velocity_s * rows.template middleRows<3>(3) +
+                                course.way_by_acceleration_s2 * rows.template bottomRows<3>();
+  rows.template middleRows<3>(3) =
+      course.velocity_left * rows.template middleRows<3>(3) +
+      course.velocity_by_acceleration_s * rows.template bottomRows<3>();
+  rows.template bottomRows<3>() *= course.acceleration_left;
+}
+
+// Of white jerk over dt (Bar-Shalom, Li & Kirubarajan, "Estimation with applications", 6.2.3).
+void add_noise(Mat18& covariance, int at, double density, double dt_s) {
+  const double dt2 = dt_s * dt_s, dt3 = dt2 * dt_s;
+  const double noise[3][3] = {{dt3 * dt2 / 20, dt2 * dt2 / 8, dt3 / 6},
+                              {dt2 * dt2 / 8, dt3 / 3, dt2 / 2},
+                              {dt3 / 6, dt2 / 2, dt_s}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      covariance.block<3, 3>(at + 3 * i, at + 3 * j).diagonal().array() += density * noise[i][j];
+}
+
+/// Zero up to `from`, one from `to` on, without a corner.
+double smooth_step(double from, double to, double value) {
+  const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+Rigid3 moved(const Rigid3& pose, const Vec3& way, const Vec3& turn) {
+  return {(rotation_of(turn) * pose.rotation).normalized(), pose.translation + way};
+}
+
+}  // namespace
+
+// Found by trial on simulated heads: at rest, and swaying with peaks of 0.57 m/s and 1.13 m/s. What
+// may be noise of the velocity is no motion.
+MotionNoise noise_of_motion(const HeadState& state) {
+  const auto beyond_noise = [&](const Vec3& rate, int at) {
+    const double sigma2 = state.covariance.diagonal().segment<3>(at).sum();
+    return std::sqrt(std::max(0.0, rate.squaredNorm() - 2 * sigma2));
+  };
+  const double speed = beyond_noise(state.move.velocity, kVelocity) / 0.5;
+  const double turning = beyond_noise(state.turn.velocity, kTurning) / 1.3;
+  return {0.02 + 2 * speed, 0.08 + 8 * turning};
+}
+
+void propagate(HeadState& state, Time to, const MotionNoise& noise, const MotionOptions& options) {
+  assert(to >= state.time);
+  const double dt_s = seconds(to - state.time);
+  if (dt_s == 0) return;
+  const Course course = course_of(dt_s, options.damping);
+  const Vec3 turn = course.way(state.turn);
+  const Mat3 turned = rotation_of(turn).toRotationMatrix();
+  Mat18& covariance = state.covariance;
+  for (int side = 0; side < 2; ++side) {  // F P, then F (F P)^T
+    covariance.middleRows<3>(kRotation) = (turned * covariance.middleRows<3>(kRotation)).eval();
+    carry(covariance.topRows<9>(), course);
+    carry(covariance.bottomRows<9>(), course);
+    covariance.transposeInPlace();
+  }
+  add_noise(covariance, kPosition, noise.move_m2_s5, dt_s);
+  add_noise(covariance, kRotation, noise.turn_rad2_s5, dt_s);
+  state.room_from_head = moved(state.room_from_head, course.way(state.move), turn);
+  state.move = course.after(state.move);
+  state.turn = course.after(state.turn);
+  state.time = to;
+}
+
+std::optional<ExpectedDot> expect_dot(const HeadState& state, const CameraModel& camera,
+                                      const Vec3& led_in_head) {
+  const auto dot = dot_of_led(camera, state.room_from_head, led_in_head);
+  if (!dot) return std::nullopt;
+  ExpectedDot expected{.raw_px = dot->raw_px, .d_raw_d_pose = dot->d_raw_d_pose};
+  const auto& by_position = dot->d_raw_d_pose.leftCols<3>();
+  const auto& by_rotation = dot->d_raw_d_pose.rightCols<3>();
+  const auto& covariance = state.covariance;
+  const Eigen::Matrix2d mixed =
+      by_position * covariance.block<3, 3>(kPosition, kRotation) * by_rotation.transpose();
+  expected.covariance_px2 =
+      by_position * covariance.block<3, 3>(kPosition, kPosition) * by_position.transpose() +
+      by_rotation * covariance.block<3, 3>(kRotation, kRotation) * by_rotation.transpose() + mixed +
+      mixed.transpose();
+  expected.raw_px_s = by_position * state.move.velocity + by_rotation * state.turn.velocity;
+  return expected;
+}
+
+// Joseph's form is not needed: the covariance is made symmetric, and dots are never exact.
+void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
+             const Eigen::Matrix2d& noise_px2) {
+  const auto& by_position = expected.d_raw_d_pose.leftCols<3>();
+  const auto& by_rotation = expected.d_raw_d_pose.rightCols<3>();
+  const Eigen::Matrix<double, 18, 2> spread =
+      state.covariance.middleCols<3>(kPosition) * by_position.transpose() +
+      state.covariance.middleCols<3>(kRotation) * by_rotation.transpose();
+  const Eigen::Matrix2d inverse = (expected.covariance_px2 + noise_px2).inverse();
+  const Eigen::Matrix<double, 18, 2> gain = spread * inverse;
+  const Eigen::Matrix<double, 18, 1> step = gain * (raw_px - expected.raw_px);
+  state.covariance.noalias() -= gain * spread.transpose();
+  state.covariance = (0.5 * (state.covariance + state.covariance.transpose())).eval();
+  state.room_from_head =
+      moved(state.room_from_head, step.segment<3>(kPosition), step.segment<3>(kRotation));
+  state.move.velocity += step.segment<3>(kVelocity);
+  state.move.acceleration += step.segment<3>(kVelocity + 3);
+  state.turn.velocity += step.segment<3>(kTurning);
+  state.turn.acceleration += step.segment<3>(kTurning + 3);
+}
+
+void widen(HeadState& state) {
+  constexpr double kDoubt_m = 0.015, kDoubt_rad = radians(2);
+  state.covariance.diagonal().segment<3>(kPosition).array() += kDoubt_m * kDoubt_m;
+  const bool turns = state.covariance(kRotation, kRotation) > 0;
+  if (turns) state.covariance.diagonal().segment<3>(kRotation).array() += kDoubt_rad * kDoubt_rad;
+}
+
+HeadState state_of(const PoseFit& fit, Time time) {
+  constexpr double kSpeed_m_s = 0.5, kTurning_rad_s = 1.5;
+  constexpr double kAcceleration_m_s2 = 2, kAcceleration_rad_s2 = 8;
+  HeadState state{.time = time, .room_from_head = fit.room_from_head};
+  const Mat6 covariance = fit.information.inverse();
+  state.covariance.block<3, 3>(kPosition, kPosition) = covariance.topLeftCorner<3, 3>();
+  state.covariance.block<3, 3>(kPosition, kRotation) = covariance.topRightCorner<3, 3>();
+  state.covariance.block<3, 3>(kRotation, kPosition) = covariance.bottomLeftCorner<3, 3>();
+  state.covariance.block<3, 3>(kRotation, kRotation) = covariance.bottomRightCorner<3, 3>();
+  state.covariance.diagonal().segment<3>(kVelocity).setConstant(kSpeed_m_s * kSpeed_m_s);
+  state.covariance.diagonal()
+      .segment<3>(kVelocity + 3)
+      .setConstant(std::pow(kAcceleration_m_s2, 2));
+  state.covariance.diagonal().segment<3>(kTurning).setConstant(kTurning_rad_s * kTurning_rad_s);
+  state.covariance.diagonal()
+      .segment<3>(kTurning + 3)
+      .setConstant(std::pow(kAcceleration_rad_s2, 2));
+  return state;
+}
+
+PoseSample sample_of(const HeadState& state) {
+  PoseSample sample{.capture_time = state.time,
+                    .level = TrackingLevel::six_dof,
+                    .room_from_head = state.room_from_head,
+                    .velocity_in_room_m_s = state.move.velocity,
+                    .angular_velocity_in_room_rad_s = state.turn.velocity};
+  const auto& covariance = state.covariance;
+  sample.covariance << covariance.block<3, 3>(kPosition, kPosition),
+      covariance.block<3, 3>(kPosition, kRotation), covariance.block<3, 3>(kRotation, kPosition),
+      covariance.block<3, 3>(kRotation, kRotation);
+  return sample;
+}
+
+PoseSample predicted(const HeadState& state, Duration ahead, const AheadOptions& options) {
+  const Course course =
+      course_of(seconds(std::clamp(ahead, Duration::zero(), options.limit)), Duration::zero());
+  const double moving =
+      smooth_step(0.5 * options.still_m_s, 2 * options.still_m_s, state.move.velocity.norm());
+  const double turning =
+      smooth_step(0.5 * options.still_rad_s, 2 * options.still_rad_s, state.turn.velocity.norm());
+  PoseSample sample = sample_of(state);
+  sample.room_from_head = moved(state.room_from_head, moving * course.way(state.move),
+                                turning * course.way(state.turn));
+  return sample;
+}
+
+}  // namespace vindu

@@ -1,0 +1,84 @@
+// An error-state Kalman filter of one head: pose and velocity, moved on in time and corrected by
+// single dots of any camera, each at the time it was captured (SCAAT: Welch & Bishop 1997). Values
+// and functions; who calls them keeps the order of time.
+#pragma once
+
+#include <optional>
+
+#include "core/pose.h"
+#include "tracker/joint/pose_fit.h"
+
+namespace vindu {
+
+using Mat18 = Eigen::Matrix<double, 18, 18>;
+
+/// Rates of something that moves, in room.
+struct Motion {
+  Vec3 velocity = Vec3::Zero();      ///< metres or radians a second
+  Vec3 acceleration = Vec3::Zero();  ///< a second squared
+};
+
+/// The error is (position, velocity, acceleration, rotation vector, angular velocity, angular
+/// acceleration), all in room; metres, radians, seconds.
+struct HeadState {
+  Time time{};
+  Rigid3 room_from_head;
+  Motion move{};
+  Motion turn{};
+  Mat18 covariance = Mat18::Zero();
+};
+
+/// White jerk, as its spectral density.
+struct MotionNoise {
+  double move_m2_s5 = 2;
+  double turn_rad2_s5 = 8;
+};
+
+/// How hard a head that moves like this may be accelerating: little at rest, more the faster it
+/// moves. One fixed value serves either a still head or a fast one.
+MotionNoise noise_of_motion(const HeadState& state);
+
+struct MotionOptions {
+  Duration damping = Duration::zero();  ///< velocities die out with this time constant; 0: never
+};
+
+/// To a later time, with accelerations that die out (Singer 1970). Earlier times are an error of
+/// the caller (assert).
+void propagate(HeadState& state, Time to, const MotionNoise& noise,
+               const MotionOptions& options = {});
+
+/// Where the filter expects an LED's dot, and how well it knows.
+struct ExpectedDot {
+  Vec2 raw_px = Vec2::Zero();
+  Jacobian26 d_raw_d_pose;
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the head's uncertainty alone
+  Vec2 raw_px_s = Vec2::Zero();                              ///< how fast it moves
+};
+
+/// Empty when the camera cannot see that point.
+std::optional<ExpectedDot> expect_dot(const HeadState& state, const CameraModel& camera,
+                                      const Vec3& led_in_head);
+
+/// Takes in a dot that was captured at the state's time. `noise_px2`: covariance of the dot.
+void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
+             const Eigen::Matrix2d& noise_px2);
+
+/// For a head that is found not to be where it should: some centimetres and degrees of doubt.
+void widen(HeadState& state);
+
+/// The head at rest where a fit found it: velocities unknown, as fast as people move.
+HeadState state_of(const PoseFit& fit, Time time);
+
+/// What others see of it, at the state's own time.
+PoseSample sample_of(const HeadState& state);
+
+struct AheadOptions {
+  Duration limit = std::chrono::milliseconds(60);  ///< error grows with its square (Azuma & Bishop)
+  double still_m_s = 0.02;                         ///< below, motion is noise: nothing is predicted
+  double still_rad_s = 0.05;                       ///< 3 degrees a second
+};
+
+/// The pose `ahead` of the state's time: at most the limit, and faded when the head is still.
+PoseSample predicted(const HeadState& state, Duration ahead, const AheadOptions& options = {});
+
+}  // namespace vindu

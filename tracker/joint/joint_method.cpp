@@ -1,0 +1,285 @@
+#include "tracker/joint/joint_method.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace vindu {
+namespace {
+
+using Milliseconds = std::chrono::milliseconds;
+
+constexpr Duration kKept = Milliseconds(200);        // reports that a late one may come before
+constexpr Duration kTogether = Milliseconds(9);      // apart, two pictures still show one pose
+constexpr Duration kFresh = Milliseconds(80);        // older reports find no heads
+constexpr Duration kLook = Milliseconds(25);         // between two looks for a lost head
+constexpr Duration kCheck = Milliseconds(50);        // between two checks of a tracked one
+constexpr Duration kLevelWindow = Milliseconds(35);  // that the level is judged by
+constexpr Duration kHeld = Milliseconds(250);
+constexpr Duration kLost = std::chrono::seconds(2);
+constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
+
+Vec2 position(const Dot& dot) { return {dot.x_px, dot.y_px}; }
+
+bool same_pose(const Rigid3& a, const Rigid3& b) {
+  return (a.translation - b.translation).norm() < 0.06 &&
+         a.rotation.angularDistance(b.rotation) < radians(20);
+}
+
+}  // namespace
+
+JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const HeadConfig> heads,
+                         const JointOptions& options)
+    : options_(options), base_(heads.size()), searches_(heads.size()) {
+  association_.turns = !options.position_only;
+  for (const CameraConfig& camera : cameras) {
+    cameras_.emplace_back(camera);
+    eyes_.push_back({.clock = CaptureClock(from_seconds(1e-3 * camera.lag_ms)),
+                     .uses_device_time = camera.source != CameraSource::video});
+  }
+  for (const HeadConfig& head : heads) leds_of_heads_.push_back(head.leds_in_head);
+}
+
+void JointMethod::absorb(const Observation& observation) {
+  assert(observation.camera >= 0 && static_cast<std::size_t>(observation.camera) < eyes_.size());
+  Eye& eye = eyes_[static_cast<std::size_t>(observation.camera)];
+  const CaptureTime device = eye.clock.capture_of(observation.arrival);
+  const CaptureTime arrival = {observation.arrival - eye.clock.lag(), Milliseconds(2)};
+  const CaptureTime& used = eye.uses_device_time ? device : arrival;
+  Entry entry;
+  entry.other_time = eye.uses_device_time ? arrival.time : device.time;
+  entry.seen = {.camera = observation.camera,
+                .captured = used.time,
+                .time_sigma_s = seconds(used.sigma),
+                .dot_sigma_px = options_.dot_sigma_px,
+                .distrust = eye.watch.distrust(),
+                .dots = {}};
+  for (const Dot& dot : observation.dots) {
+    entry.seen.masked[entry.seen.dots.size()] = eye.statics.masked(position(dot));
+    entry.seen.dots.push_back(dot);
+  }
+  insert(std::move(entry));
+}
+
+void JointMethod::insert(Entry entry) {
+  if (!entries_.empty() && entry.seen.captured + kKept < entries_.back().seen.captured) return;
+  const auto place = std::ranges::upper_bound(entries_, entry.seen.captured, {},
+                                              [](const Entry& e) { return e.seen.captured; });
+  const auto index = static_cast<std::size_t>(place - entries_.begin());
+  entries_.insert(place, std::move(entry));
+  replay_from_ = std::min(replay_from_, index);
+}
+
+const std::vector<HeadTrack>& JointMethod::newest_heads() const {
+  return entries_.empty() ? base_ : entries_.back().after;
+}
+
+void JointMethod::replay() {
+  for (std::size_t i = replay_from_; i < entries_.size(); ++i) {
+    Entry& entry = entries_[i];
+    entry.after = i == 0 ? base_ : entries_[i - 1].after;
+    const auto camera = static_cast<std::size_t>(entry.seen.camera);
+    AssociationOptions options = association_;
+    options.may_widen = eyes_[camera].watch.may_widen();
+    entry.association =
+        associate(entry.seen, cameras_[camera], leds_of_heads_, entry.after, options);
+    for (const auto& [head, state] : entry.births) {
+      entry.after[head].state = state;
+      entry.after[head].seen = entry.seen.captured;
+    }
+    judge(entry);
+  }
+  replay_from_ = entries_.size();
+  forget_old();
+}
+
+void JointMethod::forget_old() {
+  while (!entries_.empty() &&
+         entries_.front().seen.captured + kKept < entries_.back().seen.captured) {
+    base_ = std::move(entries_.front().after);
+    entries_.pop_front();
+    --replay_from_;
+  }
+}
+
+// Where a head was found by two cameras or more, a further one whose dots are all left over does
+// not stand where it is said to. Of two cameras nobody can say which is wrong.
+void JointMethod::judge_cameras(const std::vector<CameraView>& views, const FoundHead& found) {
+  const auto labelled = [](const std::vector<int>& leds) {
+    return std::ranges::any_of(leds, [](int led) { return led >= 0; });
+  };
+  const auto agree = std::ranges::count_if(found.led_of_dot, labelled);
+  for (std::size_t v = 0; v < views.size(); ++v)
+    if (const bool fits = labelled(found.led_of_dot[v]);
+        views[v].dots_px.size() >= 2 && agree - fits >= 2)
+      eyes_[static_cast<std::size_t>(views[v].camera)].watch.judge(fits);
+}
+
+// What a report says of its camera counts once, however often the report is replayed.
+void JointMethod::judge(Entry& entry) {
+  if (entry.judged) return;
+  entry.judged = true;
+  const auto camera = static_cast<std::size_t>(entry.seen.camera);
+  Eye& eye = eyes_[camera];
+  std::array<bool, kMaxDots> explained{};
+  for (const AcceptedDot& dot : entry.association.accepted) {
+    explained[dot.dot] = true;
+  }
+  for (std::size_t i = 0; i < entry.seen.dots.size(); ++i) {
+    const Vec2 raw_px = position(entry.seen.dots[i]);
+    if (explained[i])
+      eye.statics.release(raw_px, entry.seen.captured);
+    else
+      eye.statics.watch(raw_px, entry.seen.captured);
+  }
+  eye.watch.count(entry.association);
+  const double other_s = seconds(entry.other_time - entry.seen.captured);
+  if (eye.clock.locked() && eye.watch.prefers_other_time(entry.association, other_s))
+    eye.uses_device_time = !eye.uses_device_time;
+}
+
+/// The newest time that all cameras which have reported lately have reported of.
+Time JointMethod::common_time() const {
+  std::vector<std::optional<Time>> last(cameras_.size());
+  for (const Entry& entry : entries_)
+    last[static_cast<std::size_t>(entry.seen.camera)] = entry.seen.captured;
+  const Time end = entries_.back().seen.captured;
+  Time common = end;
+  for (const auto& time : last)
+    if (time && end - *time < kFresh) common = std::min(common, *time);
+  return common;
+}
+
+// Each camera's report nearest to that time.
+std::vector<std::size_t> JointMethod::together(Time common) const {
+  std::vector<std::optional<std::size_t>> nearest(cameras_.size());
+  const auto off = [&](std::size_t i) {
+    return std::chrono::abs(entries_[i].seen.captured - common);
+  };
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    auto& best = nearest[static_cast<std::size_t>(entries_[i].seen.camera)];
+    if (off(i) < kTogether && (!best || off(i) < off(*best))) best = i;
+  }
+  std::vector<std::size_t> entries;
+  for (const auto& entry : nearest)
+    if (entry) entries.push_back(*entry);
+  return entries;
+}
+
+/// Of a report: the dots that may be this head's. Not those of others, nor known reflections.
+CameraView JointMethod::view_of(const Entry& entry, std::size_t head, Duration apart) const {
+  const TimedDots& seen = entry.seen;
+  CameraView view{.camera = seen.camera,
+                  .dots_px = {},
+                  .sigma_px = std::hypot(seen.dot_sigma_px, kHeadSpeed_px_s * seconds(apart))};
+  std::array<bool, kMaxDots> excluded = seen.masked;
+  for (const AcceptedDot& dot : entry.association.accepted)
+    excluded[dot.dot] = dot.head != static_cast<int>(head);
+  for (std::size_t i = 0; i < seen.dots.size(); ++i)
+    if (!excluded[i]) view.dots_px.push_back(position(seen.dots[i]));
+  return view;
+}
+
+void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t entry) {
+  HeadState state = state_of(found.fit, entries_[entry].seen.captured);
+  if (options_.position_only) {
+    state.room_from_head.rotation = Quat::Identity();
+    state.covariance.bottomRows<9>().setZero();
+    state.covariance.rightCols<9>().setZero();
+  }
+  entries_[entry].births.emplace_back(head, state);
+  replay_from_ = std::min(replay_from_, entry);
+}
+
+AcquisitionOptions JointMethod::acquisition_options() const {
+  AcquisitionOptions options;
+  if (!options_.position_only) return options;
+  options.facing_sigma_rad.setConstant(1e-3);
+  options.least_level = TrackingLevel::position;
+  options.least_margin = 0;
+  return options;
+}
+
+// Two looks in a row that find a head in one place are right: false dots do not repeat themselves.
+// One that is tracked is looked for as well.
+void JointMethod::look_for(std::size_t head, Time now) {
+  if (entries_.empty()) return;
+  Search& search = searches_[head];
+  if (now - search.looked < (newest_heads()[head].state ? kCheck : kLook)) return;
+  search.looked = now;
+  const Time common = common_time();
+  const auto entries = together(common);
+  if (entries.empty()) return;
+  std::vector<CameraView> views;
+  for (const std::size_t i : entries)
+    views.push_back(
+        view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common)));
+  const auto found = find_head(cameras_, views, leds_of_heads_[head], acquisition_options());
+  if (!found) return search.rumour.reset();
+  judge_cameras(views, *found);
+  const std::size_t newest = *std::ranges::max_element(entries);
+  const auto& tracked = entries_[newest].after[head].state;
+  const Rigid3& pose = found->fit.room_from_head;
+  if (tracked && same_pose(pose, tracked->room_from_head)) return search.rumour.reset();
+  const bool again = search.rumour && same_pose(pose, *search.rumour);
+  search.rumour = pose;
+  if (again) bear(head, *found, newest);
+}
+
+void JointMethod::update(Time now) {
+  replay();
+  for (std::size_t head = 0; head < searches_.size(); ++head) look_for(head, now);
+  replay();
+  for (std::size_t head = 0; head < searches_.size(); ++head)
+    if (const HeadTrack& track = newest_heads()[head]; track.state) searches_[head].last = track;
+}
+
+// By the dots that each camera's newest report gave.
+TrackingLevel JointMethod::level_now(std::size_t head) const {
+  if (options_.position_only) return TrackingLevel::position;
+  const auto& state = newest_heads()[head].state;
+  Mat6 information = Mat6::Zero();
+  std::vector<bool> done(cameras_.size(), false);
+  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
+    if (entries_.back().seen.captured - entry->seen.captured > kLevelWindow) break;
+    const auto camera = static_cast<std::size_t>(entry->seen.camera);
+    if (done[camera]) continue;
+    for (const AcceptedDot& accepted : entry->association.accepted) {
+      if (accepted.head != static_cast<int>(head)) continue;
+      const auto dot = dot_of_led(cameras_[camera], state->room_from_head,
+                                  leds_of_heads_[head][static_cast<std::size_t>(accepted.led)]);
+      if (!dot) continue;
+      done[camera] = true;
+      information += dot->d_raw_d_pose.transpose() * dot->d_raw_d_pose /
+                     (entry->seen.dot_sigma_px * entry->seen.dot_sigma_px);
+    }
+  }
+  return std::min(level_of(information), TrackingLevel::bearing);
+}
+
+std::optional<PoseSample> JointMethod::pose(std::size_t head, Time photon) const {
+  const HeadTrack& last = searches_[head].last;
+  if (!last.state) return std::nullopt;
+  const Duration unseen = photon - last.seen;
+  const bool tracked = newest_heads()[head].state && unseen < kHeld + AheadOptions{}.limit;
+  PoseSample sample =
+      tracked ? predicted(*last.state, photon - last.state->time) : sample_of(*last.state);
+  sample.object = static_cast<int>(head);
+  sample.time = photon;
+  sample.capture_time = last.seen;
+  sample.level = tracked          ? level_now(head)
+                 : unseen > kLost ? TrackingLevel::lost
+                                  : TrackingLevel::held;
+  return sample;
+}
+
+std::vector<CameraHealth> JointMethod::health() const {
+  std::vector<CameraHealth> health;
+  for (const Eye& eye : eyes_)
+    health.push_back({.moved = eye.watch.moved(),
+                      .device_time = eye.uses_device_time && eye.clock.locked(),
+                      .masks = eye.statics.masks_px().size()});
+  return health;
+}
+
+}  // namespace vindu

@@ -1,0 +1,101 @@
+// Vindu's own tracking: every dot of every camera, at the time it was captured, corrects one filter
+// per head; what comes late is put where it belongs and the rest is done again. Heads that are not
+// tracked are looked for, and tracked ones are checked against what a fresh look would find. Only
+// reports and their arrivals come in.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+#include "core/site.h"
+#include "tracker/joint/acquisition.h"
+#include "tracker/joint/association.h"
+#include "tracker/joint/camera_watch.h"
+#include "tracker/joint/capture_clock.h"
+#include "tracker/joint/static_dots.h"
+
+namespace vindu {
+
+struct JointOptions {
+  /// position: the heads' rotation is taken as facing the wall; one LED in two cameras is enough.
+  bool position_only = false;
+  double dot_sigma_px = 0.6;  ///< of a Wiimote's dots: rounding and half a unit of noise
+};
+
+/// What the tracker knows of a camera beside its dots.
+struct CameraHealth {
+  bool moved = false;        ///< its dots do not fit what the others see
+  bool device_time = false;  ///< its own clock is known; else arrivals are used
+  std::size_t masks = 0;     ///< reflections that are ignored
+};
+
+/// Bound to one thread at a time.
+class JointMethod {
+ public:
+  JointMethod(std::span<const CameraConfig> cameras, std::span<const HeadConfig> heads,
+              const JointOptions& options = {});
+
+  /// Arrivals of one camera must not go back. Cheap: the work is done when somebody asks.
+  void absorb(const Observation& observation);
+
+  /// Where head number `head` will be at `photon`, as known from what has been absorbed; the
+  /// capture time is that of the newest dot it rests on. Level held or lost when no dot has been
+  /// seen for long. Empty until the head was found for the first time.
+  std::optional<PoseSample> pose(std::size_t head, Time photon) const;
+
+  /// Takes in what was absorbed, looks for heads that are lost, checks the others.
+  void update(Time now);
+
+  std::vector<CameraHealth> health() const;
+
+ private:
+  struct Entry {
+    TimedDots seen;
+    Time other_time{};  // of capture, by the clock that is not in use
+    Association association;
+    std::vector<std::pair<std::size_t, HeadState>> births;  // of heads found here
+    std::vector<HeadTrack> after;
+    bool judged = false;
+  };
+
+  struct Eye {  // one camera's
+    CaptureClock clock;
+    bool uses_device_time = true;
+    StaticDots statics{};
+    CameraWatch watch{};
+  };
+
+  void insert(Entry entry);
+  void replay();
+  void judge(Entry& entry);
+  void forget_old();
+  void look_for(std::size_t head, Time now);
+  Time common_time() const;
+  std::vector<std::size_t> together(Time common) const;
+  CameraView view_of(const Entry& entry, std::size_t head, Duration apart) const;
+  AcquisitionOptions acquisition_options() const;
+  void bear(std::size_t head, const FoundHead& found, std::size_t entry);
+  TrackingLevel level_now(std::size_t head) const;
+  void judge_cameras(const std::vector<CameraView>& views, const FoundHead& found);
+  const std::vector<HeadTrack>& newest_heads() const;
+
+  JointOptions options_;
+  AssociationOptions association_;
+  std::vector<CameraModel> cameras_;
+  std::vector<Eye> eyes_;
+  std::vector<std::vector<Vec3>> leds_of_heads_;
+  std::deque<Entry> entries_;  // in order of capture
+  std::size_t replay_from_ = 0;
+  std::vector<HeadTrack> base_;  // before the first entry
+  struct Search {
+    Time looked{};
+    std::optional<Rigid3> rumour{};  // where the last look found it, unless it is tracked there
+    HeadTrack last{};                // that was tracked
+  };
+  std::vector<Search> searches_;
+};
+
+}  // namespace vindu
