@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <mutex>
 
-#include "app/cameras.h"
 #include "app/stop_signals.h"
 #include "app/wiimote.h"
 #include "app/wiimote_screen.h"
@@ -31,11 +30,16 @@ struct WatchOptions {
 };
 
 WiimoteSettings settings_of(const WatchOptions& options, int number) {
-  CameraConfig camera;
-  camera.name = std::to_string(number);
-  camera.sensitivity = options.sensitivity;
-  camera.dot_format = options.format;
-  return wiimote_settings(camera, number - 1);
+  return {.format = *ir_format_from(options.format),
+          .sensitivity = *sensitivity_from(options.sensitivity),
+          .player = number};
+}
+
+/// What is wrong with it; empty when it is one.
+std::string check_sensitivity(const std::string& text) {
+  if (sensitivity_from(text)) return {};
+  return "\"" + text + "\" is not known; allowed: " + sensitivity_names() +
+         ", or 22 hexadecimal digits (blocks 1 and 2)";
 }
 
 std::string slots_json(const std::optional<IrSlots>& slots) {
@@ -192,7 +196,8 @@ void add_wiimote_watch(CLI::App& wiimote, Action& chosen) {
   app->add_option("--format", options->format, "Of the dots; full has blobs and half the rate")
       ->check(CLI::IsMember({"basic", "extended", "full"}));
   app->add_option("--sensitivity", options->sensitivity,
-                  "wii-1 to wii-5, marcan, inio, maximum, or 22 hexadecimal digits");
+                  "wii-1 to wii-5, marcan, inio, maximum, or 22 hexadecimal digits")
+      ->check(check_sensitivity);
   app->add_option("--seconds", options->seconds, "Length (default: until Ctrl-C)")
       ->check(CLI::Range(0.05, 1e6));
   app->add_flag("--json", options->json, "A line of JSON a report, nothing else");

@@ -77,7 +77,7 @@ TEST_F(WiimoteCommand, WatchesOneAloneInEachFormatAsText) {
 
 TEST_F(WiimoteCommand, NamesTheSensitivitiesThatThereAre) {
   const ProcessResult result = vindu({"wiimote", "watch", "--emulated", "--sensitivity", "wii-6"});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, AllOf(HasSubstr("wii-6"), HasSubstr("wii-5"), HasSubstr("22 hexa")));
 }
 

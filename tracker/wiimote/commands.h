@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "tracker/wiimote/report.h"
-#include "tracker/wiimote/sensitivity.h"
 
 namespace vindu {
 
