@@ -25,6 +25,7 @@ struct WatchOptions {
   std::string sensitivity = kDefaultSensitivity;
   std::optional<double> seconds;
   bool emulated = false;
+  EmulationOptions emulation;
   bool json = false;
   bool no_window = false;
 };
@@ -156,7 +157,7 @@ std::vector<HidInfo> chosen_devices(HidBus& bus, const WatchOptions& options) {
 
 int watch(const WatchOptions& options) {
   const StopSignals signals;
-  WiimoteBus devices(options.emulated);
+  WiimoteBus devices(options.emulated, options.emulation);
   WiimoteClaims claims;
   std::vector<std::unique_ptr<Watched>> watched;
   for (const HidInfo& info : chosen_devices(devices.bus(), options))
@@ -203,11 +204,15 @@ void add_wiimote_watch(CLI::App& wiimote, Action& chosen) {
   app->add_flag("--json", options->json, "A line of JSON a report, nothing else");
   app->add_flag("--no-window", options->no_window, "No window, also where there is a display");
   add_emulated(*app, options->emulated);
+  add_emulation(*app, options->emulation);
+  for (const char* name : {"--link", "--kernel"})
+    app->get_option(name)->needs(app->get_option("--emulated"));
   app->footer(
       "\nExamples:\n"
       "  vindu wiimote watch\n"
       "  vindu wiimote watch 2 --sensitivity wii-5\n"
-      "  vindu wiimote watch --emulated --json --seconds 2\n");
+      "  vindu wiimote watch --emulated --json --seconds 2\n"
+      "  vindu wiimote watch --emulated --link bad --kernel\n");
   app->callback([options, &chosen] { chosen = [options] { return watch(*options); }; });
 }
 
