@@ -70,6 +70,11 @@ Progress Exchange::take(const Report& report) {
 
 std::optional<OutputReport> Exchange::next_output(Time now) {
   while (!steps_.empty() && now >= next_try_) {
+    if (steps_.front().answer == Answer::none) {
+      const OutputReport report = steps_.front().report;
+      end_step();
+      return report;
+    }
     if (tries_ < patience_.tries) {
       if (++tries_ > 1) ++repeated_;
       next_try_ = now + patience_.timeout;
