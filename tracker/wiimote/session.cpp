@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Patience kStarting{milliseconds(250), 4};
-constexpr Patience kRestarting{milliseconds(100), 10};  // it answered a moment ago
+constexpr Patience kRestarting{milliseconds(100), 4};  // it answered a moment ago
 constexpr Patience kDeaf{milliseconds(50), 1, true};
 constexpr Patience kChecking{milliseconds(100), 3};
 
@@ -21,7 +21,8 @@ constexpr Duration kStopped = kGap + milliseconds(1);
 // asking at once loses that race in one case of six.
 constexpr Duration kAfterStatus = milliseconds(5);
 constexpr Duration kAskAgain = milliseconds(15);
-constexpr Duration kRestart = milliseconds(600);  // asking did not help: start the camera again
+constexpr Duration kUnanswered = milliseconds(40);  // asking once did not help: nor would a check
+constexpr Duration kRestart = milliseconds(600);    // asking did not help: start the camera again
 constexpr Duration kFirstCheck = milliseconds(60), kCheckAgain = std::chrono::seconds(2);
 // The answers take the place of four data reports.
 constexpr Duration kCheckEvery = std::chrono::seconds(10);
@@ -234,7 +235,7 @@ std::optional<OutputReport> WiimoteSession::watch(Time now) {
     begin(now - last_report_ > kRestart ? Phase::greeting : Phase::starting, now);
     return std::nullopt;
   }
-  if (gaps_.open(now) > kGap) {
+  if (gaps_.open(now) > kUnanswered) {
     exchange_.abandon();
     phase_ = Phase::streaming;
     check_soon(now);
