@@ -26,7 +26,7 @@ SensorView one_dot(Time) {
   return view;
 }
 
-enum class Disturbance { none, status, battery, camera_opened, camera_closed };
+enum class Disturbance { none, status, battery, camera_opened, camera_closed, camera_flapped };
 
 /// A driver on an emulated Wiimote; time goes as fast as it can.
 class Stream {
@@ -55,6 +55,12 @@ class Stream {
     return vindu::milliseconds(std::max(longest, clock_.now() - last_));
   }
 
+  /// As soon as it was opened.
+  void flap() {
+    longest_gap(from_seconds(random_.uniform(0.09, 0.14)));
+    device_.close_camera_node();
+  }
+
   double disturb(Disturbance what) {
     longest_gap(from_seconds(random_.uniform(1.0, 1.02)));
     if (what == Disturbance::camera_closed) device_.open_camera_node(), longest_gap(kWatch);
@@ -62,6 +68,7 @@ class Stream {
     if (what == Disturbance::battery) device_.read_battery();
     if (what == Disturbance::camera_opened) device_.open_camera_node();
     if (what == Disturbance::camera_closed) device_.close_camera_node();
+    if (what == Disturbance::camera_flapped) device_.open_camera_node(), flap();
     const double gap_ms = longest_gap(kWatch);
     if (what == Disturbance::camera_opened) device_.close_camera_node(), longest_gap(kWatch);
     return gap_ms;
@@ -99,6 +106,7 @@ GAPS(status);
 GAPS(battery);
 GAPS(camera_opened);
 GAPS(camera_closed);
+GAPS(camera_flapped);
 
 }  // namespace
 }  // namespace vindu

@@ -7,6 +7,8 @@ namespace vindu {
 namespace {
 
 constexpr int kBusy = 4;
+constexpr Duration kOursToCome = std::chrono::milliseconds(30);
+constexpr int kRefusals = 2;  // one may have been somebody else's
 
 /// Whether the memory report answers the step's read: the address is the last two of its bytes.
 bool answers(const MemoryReport& memory, const Step& step) {
@@ -51,7 +53,7 @@ Progress Exchange::refuse(int error) {
   return fail(Progress::failed, "the Wiimote refused it with error " + std::to_string(error));
 }
 
-Progress Exchange::take(const Report& report) {
+Progress Exchange::take(const Report& report, Time arrival) {
   if (steps_.empty() || tries_ == 0) return Progress::none;
   const Step& step = steps_.front();
   if (std::holds_alternative<StatusReport>(report)) {
@@ -60,6 +62,7 @@ Progress Exchange::take(const Report& report) {
     if (!answers(*acknowledgement, step)) return Progress::none;
     if (acknowledgement->error == 0) return end_step();
     refused_ = acknowledgement->error;  // unless it answers somebody else, and ours is to come
+    next_try_ = std::min(next_try_, arrival + kOursToCome);
     return Progress::none;
   } else if (const auto* memory = std::get_if<MemoryReport>(&report)) {
     if (!answers(*memory, step) || memory->error == kBusy) return Progress::none;
@@ -77,7 +80,8 @@ std::optional<OutputReport> Exchange::next_output(Time now) {
       end_step();
       return report;
     }
-    if (tries_ < patience_.tries) {
+    const bool refused = refused_ != 0 && tries_ >= kRefusals;
+    if (tries_ < patience_.tries && !refused) {
       refused_ = 0;
       if (++tries_ > 1) ++repeated_;
       next_try_ = now + patience_.timeout;

@@ -32,7 +32,7 @@ class Exchange {
   void abandon() { steps_.clear(); }
 
   /// Offers a report that has come.
-  Progress take(const Report& report);
+  Progress take(const Report& report, Time arrival);
   /// The command to write now, for the first time or again.
   std::optional<OutputReport> next_output(Time now);
   /// What became of the exchange for want of good answers, since the last call: none, finished

@@ -106,7 +106,7 @@ std::optional<WiimoteSample> WiimoteSession::take(std::span<const std::uint8_t> 
   }
   const Report& report = *parsed.report;
   keep_calibration(report);
-  const Progress progress = exchange_.take(report);
+  const Progress progress = exchange_.take(report, arrival);
   if (progress != Progress::none) deaf_ = false;
   after_exchange(progress, arrival);
   if (const auto* foreign = std::get_if<Acknowledgement>(&report);
@@ -140,9 +140,9 @@ void WiimoteSession::exchange_failed(Time now) {
     gaps_.suspect(GapCause::camera, now);
     if (silent_since_) gaps_.none_since(*silent_since_);
     camera_lost_ = true;
-    if (++fruitless_starts_ < kManyStarts) return begin(Phase::starting, now);
-    health_.trouble += "; if that goes on, end other programs that use the Wiimote";
   }
+  if (++fruitless_starts_ < kManyStarts) return begin(Phase::starting, now);
+  health_.trouble += "; if that goes on, end other programs that use the Wiimote";
   begin(Phase::resting, now);
 }
 
