@@ -2,21 +2,13 @@
 
 #include <algorithm>
 
-#include "core/error.h"
 #include "tracker/ir_camera/ir_camera.h"
 #include "tracker/wiimote/hidapi_bus.h"
 
 namespace vindu::app {
 
 WiimoteSettings wiimote_settings(const CameraConfig& camera, int number) {
-  const auto sensitivity = sensitivity_from(camera.sensitivity);
-  if (!sensitivity)
-    throw Error({"sensitivity \"" + camera.sensitivity + "\" is not known", "camera " + camera.name,
-                 "write " + sensitivity_names() + ", or 22 hexadecimal digits (blocks 1 and 2)"});
-  const IrFormat format = camera.dot_format == "basic"  ? IrFormat::basic
-                          : camera.dot_format == "full" ? IrFormat::full
-                                                        : IrFormat::extended;
-  return {.format = format, .sensitivity = *sensitivity, .player = number + 1};
+  return {.format = camera.dot_format, .sensitivity = camera.sensitivity, .player = number + 1};
 }
 
 bool all_emulated(const Site& site) {

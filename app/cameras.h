@@ -57,7 +57,7 @@ class Cameras {
 /// The simulated person is what the cameras see: nothing else moves the eye.
 bool all_emulated(const Site& site);
 
-/// What the wall file says of a Wiimote. Throws Error that names the camera.
+/// What the wall file says of a Wiimote.
 WiimoteSettings wiimote_settings(const CameraConfig& camera, int number);
 
 }  // namespace vindu::app

@@ -12,6 +12,7 @@
 #include "app/cameras.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/emulation.h"
 #include "app/stop_signals.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -27,6 +28,7 @@ struct RecordCommand {
   std::optional<double> seconds;
   double rotate_mb = 100;
   std::uint64_t seed = 52;
+  EmulationOptions emulation;
 };
 
 std::string text_of_file(const std::string& file) {
@@ -120,6 +122,7 @@ int record(const RecordCommand& command) {
   EmulatedRoomOptions room_options;
   room_options.person.seed = room_options.wiimote.seed = command.seed;
   room_options.person.start = clock.now();
+  apply(command.emulation, room_options.wiimote);
   const EmulatedRoom room(site, clock, room_options);
   const RecordingInfo info = describe(wall_file, site, clock);
   const std::string file = command.out.empty() ? default_name() : command.out;
@@ -160,6 +163,7 @@ void add_record(CLI::App& parent, Action& chosen) {
                   "(default: 100)")
       ->check(CLI::Range(0.0, 1e6));
   app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
+  add_emulation(*app, command->emulation);
   app->footer(
       "\nExamples:\n"
       "  vindu record --wall wall.toml --out walk.vrec\n"

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/contact_sheet.h"
+#include "app/emulation.h"
 #include "app/eye_source.h"
 #include "app/frame_loop.h"
 #include "app/report.h"
@@ -42,6 +43,7 @@ struct SimulateOptions {
   std::optional<int> device;
   std::uint64_t seed = 52;  // a walk that soon goes to both sides
   double noise_px = 0.3;
+  EmulationOptions emulation;
   bool headless = false;
   bool json = false;
 };
@@ -76,6 +78,7 @@ EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& cl
   room.person.seed = room.wiimote.seed = options.seed;
   room.person.start = clock.now();
   room.wiimote.noise_px = options.noise_px;
+  apply(options.emulation, room.wiimote);
   return room;
 }
 
@@ -339,6 +342,7 @@ void add_simulate(CLI::App& parent, Action& chosen) {
   app->add_option("--seed", options->seed, "Of the walk and of the cameras' noise");
   app->add_option("--noise-px", options->noise_px, "Noise of the emulated cameras")
       ->check(CLI::Range(0.0, 20.0));
+  add_emulation(*app, options->emulation);
   app->add_option("--clock", options->clock,
                   "manual: time moves by frames alone, so that runs are bit-equal")
       ->check(CLI::IsMember({"real", "manual"}));

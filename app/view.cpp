@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/emulation.h"
 #include "app/eye_source.h"
 #include "app/frame_loop.h"
 #include "app/report.h"
@@ -33,6 +34,7 @@ struct ViewOptions {
   bool mouse = false;
   bool track = false;
   bool fullscreen = false;
+  EmulationOptions emulation;
 };
 
 /// The screen as the monitor reports it, checked for sense, or as it was typed or written down.
@@ -207,6 +209,7 @@ int view(const ViewOptions& options) {
   Viewer viewer(options, *window);
   EmulatedRoomOptions room_options;
   room_options.person = walk_before(viewer.site().wall, clock.now(), options.seed);
+  apply(options.emulation, room_options.wiimote);
   const EmulatedRoom room(viewer.site(), clock, room_options);
   const auto eyes = choose_eyes(options, *window, viewer.site(), room, clock);
   LoopOptions loop{.rate_hz = viewer.site().rate_hz,
@@ -263,6 +266,8 @@ void add_view(CLI::App& parent, Action& chosen) {
   app->add_flag("--fullscreen", options->fullscreen, "Cover the screen");
   app->add_option("--seconds", options->seconds, "End by itself")->check(CLI::Range(0.05, 1e6));
   app->add_option("--seed", options->seed, "Of the simulated walk");
+  add_emulation(*app, options->emulation);
+  for (const char* name : {"--link", "--kernel"}) app->get_option(name)->needs(track);
   app->add_option("--device", options->device, "EGL device (GPU) by its index, without a display");
   app->add_option("--out", options->out,
                   "Folder for the picture where there is no display (default: out)");

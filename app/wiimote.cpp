@@ -31,9 +31,11 @@ bool has_open(const fs::path& process, const std::string& path) {
 
 }  // namespace
 
-WiimoteBus::WiimoteBus(bool emulated) {
+WiimoteBus::WiimoteBus(bool emulated, const EmulationOptions& emulation) {
+  EmulatedRoomOptions room;
+  apply(emulation, room.wiimote);
   if (emulated)
-    room_ = std::make_unique<EmulatedRoom>(load_site(""), clock_);
+    room_ = std::make_unique<EmulatedRoom>(load_site(""), clock_, room);
   else
     real_ = make_hidapi_bus(clock_);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/emulation.h"
 #include "simulator/emulated_room.h"
 #include "tracker/wiimote/hid_device.h"
 
@@ -16,7 +17,7 @@ namespace vindu::app {
 /// The devices of this machine or, without hardware, those of the emulated room.
 class WiimoteBus {
  public:
-  explicit WiimoteBus(bool emulated);
+  explicit WiimoteBus(bool emulated, const EmulationOptions& emulation = {});
 
   HidBus& bus() { return room_ ? static_cast<HidBus&>(room_->bus()) : *real_; }
   Clock& clock() { return clock_; }

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <mutex>
 
-#include "app/cameras.h"
 #include "app/stop_signals.h"
 #include "app/wiimote.h"
 #include "app/wiimote_screen.h"
@@ -26,16 +25,22 @@ struct WatchOptions {
   std::string sensitivity = kDefaultSensitivity;
   std::optional<double> seconds;
   bool emulated = false;
+  EmulationOptions emulation;
   bool json = false;
   bool no_window = false;
 };
 
 WiimoteSettings settings_of(const WatchOptions& options, int number) {
-  CameraConfig camera;
-  camera.name = std::to_string(number);
-  camera.sensitivity = options.sensitivity;
-  camera.dot_format = options.format;
-  return wiimote_settings(camera, number - 1);
+  return {.format = *ir_format_from(options.format),
+          .sensitivity = *sensitivity_from(options.sensitivity),
+          .player = number};
+}
+
+/// What is wrong with it; empty when it is one.
+std::string check_sensitivity(const std::string& text) {
+  if (sensitivity_from(text)) return {};
+  return "\"" + text + "\" is not known; allowed: " + sensitivity_names() +
+         ", or 22 hexadecimal digits (blocks 1 and 2)";
 }
 
 std::string slots_json(const std::optional<IrSlots>& slots) {
@@ -152,7 +157,7 @@ std::vector<HidInfo> chosen_devices(HidBus& bus, const WatchOptions& options) {
 
 int watch(const WatchOptions& options) {
   const StopSignals signals;
-  WiimoteBus devices(options.emulated);
+  WiimoteBus devices(options.emulated, options.emulation);
   WiimoteClaims claims;
   std::vector<std::unique_ptr<Watched>> watched;
   for (const HidInfo& info : chosen_devices(devices.bus(), options))
@@ -192,17 +197,22 @@ void add_wiimote_watch(CLI::App& wiimote, Action& chosen) {
   app->add_option("--format", options->format, "Of the dots; full has blobs and half the rate")
       ->check(CLI::IsMember({"basic", "extended", "full"}));
   app->add_option("--sensitivity", options->sensitivity,
-                  "wii-1 to wii-5, marcan, inio, maximum, or 22 hexadecimal digits");
+                  "wii-1 to wii-5, marcan, inio, maximum, or 22 hexadecimal digits")
+      ->check(check_sensitivity);
   app->add_option("--seconds", options->seconds, "Length (default: until Ctrl-C)")
       ->check(CLI::Range(0.05, 1e6));
   app->add_flag("--json", options->json, "A line of JSON a report, nothing else");
   app->add_flag("--no-window", options->no_window, "No window, also where there is a display");
   add_emulated(*app, options->emulated);
+  add_emulation(*app, options->emulation);
+  for (const char* name : {"--link", "--kernel"})
+    app->get_option(name)->needs(app->get_option("--emulated"));
   app->footer(
       "\nExamples:\n"
       "  vindu wiimote watch\n"
       "  vindu wiimote watch 2 --sensitivity wii-5\n"
-      "  vindu wiimote watch --emulated --json --seconds 2\n");
+      "  vindu wiimote watch --emulated --json --seconds 2\n"
+      "  vindu wiimote watch --emulated --link bad --kernel\n");
   app->callback([options, &chosen] { chosen = [options] { return watch(*options); }; });
 }
 

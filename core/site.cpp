@@ -253,9 +253,15 @@ CameraSource source_from(const std::string& name) {
 
 void read_wiimote(TomlTable& table, CameraConfig& camera) {
   camera.address = table.text("address").value_or("");
-  camera.sensitivity = table.text("sensitivity").value_or(camera.sensitivity);
-  camera.dot_format =
-      table.one_of("dot_format", {"basic", "extended", "full"}).value_or(camera.dot_format);
+  if (const auto text = table.text("sensitivity")) {
+    const auto sensitivity = sensitivity_from(*text);
+    if (!sensitivity)
+      table.fail("sensitivity", "is \"" + *text + "\"; allowed: " + sensitivity_names() +
+                                    ", or 22 hexadecimal digits (blocks 1 and 2)");
+    camera.sensitivity = sensitivity.value_or(camera.sensitivity);
+  }
+  if (const auto name = table.one_of("dot_format", {"basic", "extended", "full"}))
+    camera.dot_format = *ir_format_from(*name);
 }
 
 /// Fields of another source are not known, except that an emulated camera may stand in for any.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/infrared.h"
 #include "core/wall.h"
 
 namespace vindu {
@@ -47,11 +48,11 @@ struct VideoConfig {
 struct CameraConfig {
   std::string name;
   CameraSource source = CameraSource::emulated;
-  std::string address;                  ///< of a Wiimote; empty: any
-  std::string sensitivity = "wii-4";    ///< of a Wiimote: a name, or 22 hexadecimal digits
-  std::string dot_format = "extended";  ///< of a Wiimote: basic, extended or full
-  VideoConfig video;                    ///< where that is the source
-  double lag_ms = 0;                    ///< from the light to the report's arrival, at the least
+  std::string address;                                               ///< of a Wiimote; empty: any
+  Sensitivity sensitivity = *sensitivity_from(kDefaultSensitivity);  ///< of a Wiimote
+  IrFormat dot_format = IrFormat::extended;                          ///< of a Wiimote
+  VideoConfig video;                                                 ///< where that is the source
+  double lag_ms = 0;  ///< from the light to the report's arrival, at the least
   Intrinsics intrinsics;
   Rigid3 room_from_camera;  ///< camera: +x right, +y down, +z along the optical axis
 };

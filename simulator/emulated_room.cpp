@@ -9,6 +9,8 @@
 namespace vindu {
 namespace {
 
+constexpr Duration kBatteryReadEvery = std::chrono::seconds(10);
+
 std::vector<std::uint8_t> memory_image() {
   std::ifstream file(find_asset("wiimote/eeprom.bin"), std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -21,7 +23,8 @@ EmulatedDeviceOptions device_options(const EmulatedWiimoteOptions& wiimote, std:
   options.seed = seed;
   options.link = wiimote.link;
   options.ring = wiimote.ring;
-  if (wiimote.kernel) options.kernel = KernelOptions{.seed = seed};
+  if (wiimote.kernel)
+    options.kernel = KernelOptions{.battery_read_every = kBatteryReadEvery, .seed = seed};
   options.firmware.eeprom = memory_image();
   options.firmware.camera_already_on = wiimote.camera_already_on;
   Random random(seed ^ 0x5851f42d4c957f2dULL);

@@ -63,15 +63,14 @@ install_packages() {
   "${apt[@]}" install -y --no-install-recommends "$@" >>"$root/build/apt.log" 2>&1
 }
 
-# need_kernel: the kernel that Debian makes for cloud machines, unpacked in build/linux and never
-# installed. It has the modules that tests/kernel needs, and starts in seconds under QEMU.
+# need_kernel PACKAGE FOLDER: a kernel of Debian's, unpacked in build/FOLDER and never installed.
 need_kernel() {
-  local folder=$root/build/linux log=$root/build/linux.log package
+  local folder=$root/build/$2 log=$root/build/$2.log package
   compgen -G "$folder/boot/vmlinuz-*" >/dev/null && return
-  package=$(apt-cache depends linux-image-cloud-amd64 2>/dev/null |
+  package=$(apt-cache depends "$1" 2>/dev/null |
     sed -n 's/^ *Depends: \(linux-image-[0-9].*\)/\1/p' | head -n 1)
-  [[ -n $package ]] || die "apt knows no package linux-image-cloud-amd64; as root: apt-get update"
-  say "Fetching $package (27 MB) and unpacking it to build/linux ..."
+  [[ -n $package ]] || die "apt knows no package $1; as root: apt-get update"
+  say "Fetching $package and unpacking it to build/$2 ..."
   rm -rf "$folder" "$folder.new" && mkdir -p "$folder.new"
   (cd "$folder.new" && apt-get -q download "$package" && dpkg-deb -x ./*.deb . &&
     rm ./*.deb && mv "$folder.new" "$folder") >"$log" 2>&1 && return

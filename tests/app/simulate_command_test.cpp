@@ -57,6 +57,14 @@ TEST_F(SimulateCommand, IsBitEqualWhenTrackedWithOneSeedAndDiffersWithAnother) {
   EXPECT_NE(figures_of(once.out, "eye_error_mm"), figures_of(other.out, "eye_error_mm"));
 }
 
+TEST_F(SimulateCommand, ShowsWhatABadLinkCosts) {
+  const ProcessResult good = simulate("a", kSettled_s, {"--mode", "track"});
+  const ProcessResult bad = simulate("b", kSettled_s, {"--mode", "track", "--link", "bad"});
+  ASSERT_EQ(good.exit_code, 0) << good.err;
+  ASSERT_EQ(bad.exit_code, 0) << bad.err;
+  EXPECT_NE(figures_of(good.out, "eye_error_mm"), figures_of(bad.out, "eye_error_mm"));
+}
+
 TEST_F(SimulateCommand, EndsWithATable) {
   const ProcessResult result = vindu({"simulate", "--clock", "manual", "--seconds", kSettled_s,
                                       "--scale", "0.03", "--out", path("out")});

@@ -75,9 +75,22 @@ TEST_F(WiimoteCommand, WatchesOneAloneInEachFormatAsText) {
   }
 }
 
+TEST_F(WiimoteCommand, WatchesEmulatedOnesBehindABadLinkBesideTheKernel) {
+  const ProcessResult result = vindu({"wiimote", "watch", "1", "--emulated", "--link", "bad",
+                                      "--kernel", "--json", "--seconds", "3"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr(R"("slots":null)"));  // the kernel's own report
+  EXPECT_THAT(result.out, HasSubstr(R"("slots":[{)"));
+}
+
+TEST_F(WiimoteCommand, EmulatesNothingUnlessItIsAskedTo) {
+  EXPECT_EQ(vindu({"wiimote", "watch", "--link", "busy"}).exit_code, 2);
+  EXPECT_EQ(vindu({"wiimote", "watch", "--emulated", "--link", "awful"}).exit_code, 2);
+}
+
 TEST_F(WiimoteCommand, NamesTheSensitivitiesThatThereAre) {
   const ProcessResult result = vindu({"wiimote", "watch", "--emulated", "--sensitivity", "wii-6"});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, AllOf(HasSubstr("wii-6"), HasSubstr("wii-5"), HasSubstr("22 hexa")));
 }
 

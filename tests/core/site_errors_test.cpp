@@ -129,6 +129,18 @@ INSTANTIATE_TEST_SUITE_P(
              "look_at_m = [0, 0, 0]\n",
              "FILE:10: camera[0].source: is \"wimote\" (did you mean \"wiimote\"?); allowed: "
              "emulated, wiimote, video"},
+        Case{"ASensitivityThatIsNone",
+             kCamera + "sensitivity = \"wii-6\"\nposition_m = [0, 1, 2]\npitch_deg = 90\n",
+             "FILE:11: camera[0].sensitivity: is \"wii-6\"; allowed: wii-1, wii-2, wii-3, wii-4, "
+             "wii-5, marcan, inio, maximum, or 22 hexadecimal digits (blocks 1 and 2)"},
+        Case{"ASensitivityOfTooFewDigits",
+             kCamera + "sensitivity = \"0200\"\nposition_m = [0, 1, 2]\npitch_deg = 90\n",
+             "FILE:11: camera[0].sensitivity: is \"0200\"; allowed: wii-1, wii-2, wii-3, wii-4, "
+             "wii-5, marcan, inio, maximum, or 22 hexadecimal digits (blocks 1 and 2)"},
+        Case{"ADotFormatThatIsNone",
+             kCamera + "dot_format = \"ful\"\nposition_m = [0, 1, 2]\npitch_deg = 90\n",
+             "FILE:11: camera[0].dot_format: is \"ful\" (did you mean \"full\"?); allowed: basic, "
+             "extended, full"},
         Case{"AVideoCameraWithoutADevice", kVideo,
              "FILE:8: camera[0].device: is missing; write device = \"/dev/video0\", or file for a "
              "video"},
@@ -148,9 +160,8 @@ INSTANTIATE_TEST_SUITE_P(
              "[[camera]]\nname = \"a\"\nsource = \"wiimote\"\nexposure = 3\n"
              "position_m = [0, 1, 2]\npitch_deg = 90\n",
              "FILE:11: camera[0].exposure: is not known; known here: name, source, address, "
-             "sensitivity, dot_format, focal_px, focal_aspect, centre_px, distortion, position_m, "
-             "look_at_m, heading_deg, "
-             "pitch_deg, roll_deg"}),
+             "sensitivity, dot_format, lag_ms, focal_px, focal_aspect, centre_px, distortion, "
+             "position_m, look_at_m, heading_deg, pitch_deg, roll_deg"}),
     [](const auto& wrong) { return wrong.param.name; });
 
 TEST(SiteErrors, NameEveryFieldThatIsMissing) {

@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
-# Runs a program under Debian's own kernel, emulated by QEMU, as root and with /dev/uhid: what the
-# machine that tests need not have. The kernel is unpacked, never installed; the file system is the
-# program, its libraries, the kernel's HID modules and busybox, in memory.
+# Runs a program under Debian's own kernel, emulated by QEMU, as root and with the modules that it
+# wants: what the machine that tests need not have. The kernel is unpacked, never installed; the
+# file system is the program, its libraries, those modules and busybox, in memory.
 set -euo pipefail
 
 usage() {
   cat <<'END'
-usage: run.sh PROGRAM LINUX FOLDER [FILE...]
+usage: run.sh MODULES PROGRAM LINUX FOLDER [FILE...]
 
+  MODULES  of the kernel, that are loaded before: "uhid hid-wiimote"
   PROGRAM  what runs in there; its exit code becomes this script's
   LINUX    the unpacked package of a kernel: LINUX/boot/vmlinuz-*, LINUX/lib/modules/*
   FOLDER   where the file system is made
-  FILE     files that the program reads, under the same names in there
+  FILE     files that the program reads, under the same names in there; with a library's own
 END
 }
 
@@ -20,8 +21,6 @@ die() {
   exit 1
 }
 
-# What loads the rest: modprobe follows modules.dep.
-modules="uhid hid-generic hid-wiimote evdev"
 limit_s=280
 
 need_tools() {
@@ -30,8 +29,8 @@ need_tools() {
     command -v "${tool%:*}" >/dev/null ||
       die "there is no ${tool%:*}; install the Debian package ${tool#*:}"
   done
-  [[ -f $vmlinuz ]] || die "$linux: holds no kernel; ./test --full fetches Debian's" \
-    "linux-image-cloud-amd64 and unpacks it there"
+  [[ -f $vmlinuz ]] || die "$linux: holds no kernel; ./test --full fetches Debian's and unpacks" \
+    "it there"
 }
 
 # in_there FILE...: a copy of each under its own name, links followed.
@@ -42,19 +41,24 @@ in_there() {
 
 add_program() {
   install -D "$program" "$stage/program"
-  local libraries
-  mapfile -t libraries < <(ldd "$program" | grep -o '/[^ ]*')
+  local file libraries
+  mapfile -t libraries < <(for file in "$program" "$@"; do
+    [[ $file == *.so || $file == "$program" ]] && ldd "$file"
+  done | grep -o '/[^ ]*[^ :]' | sort -u)
   in_there "${libraries[@]}" "$@"
 }
 
-# All HID modules and what they need; the other 3,000 files stay outside.
+# The modules and what they need; the other 4,000 stay outside. What the kernel has built in is no
+# file, and needs none.
 add_modules() {
-  local from=$linux/lib/modules/$release to=$stage/lib/modules/$release folder
-  mkdir -p "$to/kernel/drivers"
+  local from=$linux/lib/modules/$release to=$stage/lib/modules/$release module file
+  [[ -f $from/modules.dep ]] || busybox depmod -b "$linux" "$release"
+  mkdir -p "$to"
   cp "$from"/modules.{builtin,order} "$to"
-  for folder in hid input leds power; do
-    [[ ! -d $from/kernel/drivers/$folder ]] ||
-      cp -r "$from/kernel/drivers/$folder" "$to/kernel/drivers"
+  for module in $modules; do
+    for file in $(sed -n "s|:| |; \\|/$module\\.ko |p" "$from/modules.dep"); do
+      install -D "$from/$file" "$to/$file"
+    done
   done
   busybox depmod -b "$stage" "$release"
 }
@@ -87,17 +91,18 @@ make_file_system() {
 
 # No KVM: it is not there where tests run, and emulation is the same everywhere.
 boot() {
-  timeout "$limit_s" qemu-system-x86_64 -accel tcg -cpu max -smp 2 -m 768 -nodefaults \
+  local memory_mb=$((768 + 4 * $(stat -c %s "$folder/initramfs") / 1000000))
+  timeout "$limit_s" qemu-system-x86_64 -accel tcg -cpu max -smp 2 -m "$memory_mb" -nodefaults \
     -display none -serial stdio -no-reboot -kernel "$vmlinuz" -initrd "$folder/initramfs" \
     -append "console=ttyS0 quiet panic=-1 random.trust_cpu=on" </dev/null
 }
 
-[[ $# -ge 3 ]] || {
+[[ $# -ge 4 ]] || {
   usage >&2
   exit 2
 }
-program=$1 linux=$2 folder=$3
-shift 3
+modules=$1 program=$2 linux=$3 folder=$4
+shift 4
 vmlinuz=$(compgen -G "$linux/boot/vmlinuz-*" | head -n 1 || true)
 release=${vmlinuz##*/vmlinuz-}
 stage=$folder/files

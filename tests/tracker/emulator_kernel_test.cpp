@@ -63,6 +63,13 @@ TEST_F(KernelOnAWire, asks_for_the_status_when_the_battery_is_read) {
   EXPECT_THAT(run(seconds(1)), ElementsAre("15 00", "12 00 30"));
 }
 
+TEST_F(KernelOnAWire, asks_for_the_status_as_often_as_the_battery_is_read_by_plan) {
+  kernel_.emplace(KernelOptions{.motion_plus_inside = true, .battery_read_every = seconds(3)},
+                  now_);
+  start();
+  EXPECT_THAT(run(seconds(6)), ElementsAre("15 00", "12 00 30", "15 00", "12 00 30"));
+}
+
 TEST_F(KernelOnAWire, looks_for_a_motion_plus_every_four_seconds) {
   start();
   const std::vector<std::string> look = {"17 04 a4 00 fa 00 06", "16 04 a6 00 f0 01 55",

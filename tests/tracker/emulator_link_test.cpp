@@ -64,6 +64,12 @@ TEST(EmulatedLink, two_on_one_adapter_come_in_bursts_as_in_table_5_1) {
   EXPECT_EQ(share_between(run, 0, 0.5), 0);
 }
 
+TEST(EmulatedLink, of_the_bad_kind_bursts_and_loses_one_report_in_twenty) {
+  const Arrivals run = run_of(bad_link(), 20000);
+  EXPECT_NEAR(run.lost, 1000, 120);
+  EXPECT_GT(share_between(run, 15, 100), 0.1);
+}
+
 TEST(EmulatedLink, loses_the_given_share_of_data_reports_and_no_answers) {
   LinkOptions options;
   options.loss = 0.05;

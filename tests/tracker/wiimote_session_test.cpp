@@ -176,7 +176,38 @@ TEST_F(WiimoteSessionTest, GetsTheStreamBackWhenTheKernelAnswersEveryStatusWithI
   }
   EXPECT_GE(connection.all_gaps(), 35u);  // a few are too short to be gaps
   for (const GapCount& count : connection.session.health().gaps)
-    EXPECT_LE(count.longest, milliseconds(60));
+    EXPECT_LE(count.longest, milliseconds(50));
+}
+
+TEST_F(WiimoteSessionTest, LeavesAStreamAloneThatComesInBursts) {
+  Connection connection;
+  stream(connection);
+  int requests = 0;
+  std::uint64_t bursts = 0;
+  connection.lose_output = [&](std::span<const std::uint8_t> bytes) {
+    return requests += bytes[0] == 0x12, false;
+  };
+  connection.lose_input = [&](std::span<const std::uint8_t>) { return ++bursts % 3 != 0; };
+  connection.run(milliseconds(500));  // a report each 30 ms
+  EXPECT_EQ(requests, 0);
+}
+
+TEST_F(WiimoteSessionTest, IsNotRefusedByAnErrorThatAnswersSomebodyElse) {
+  std::vector<std::uint8_t> poll = {0x16, 0x04, 0xa6, 0x00, 0xf0, 0x01, 0x55};  // no such device
+  poll.resize(22);
+  for (int moment = 0; moment < 150; moment += 3) {
+    Connection connection;
+    stream(connection);
+    connection.write(std::vector<std::uint8_t>{0x13, 0x00});
+    connection.write(std::vector<std::uint8_t>{0x1a, 0x00});
+    connection.write(std::vector<std::uint8_t>{0x12, 0x00, 0x30});
+    connection.run(milliseconds(moment));
+    connection.write(poll);
+    connection.run(seconds(3));
+    connection.all_gaps();
+    EXPECT_LE(connection.gaps(GapCause::camera).longest, milliseconds(400)) << moment;
+    EXPECT_EQ(dots_of(*connection.samples.back().data.slots).size(), 1u) << moment;
+  }
 }
 
 TEST_F(WiimoteSessionTest, KnowsThatAnExtensionWasPlugged) {

@@ -113,14 +113,15 @@ std::vector<Step> camera_steps(const WiimoteSettings& settings) {
           write_registers(kSensitivity1, sensitivity.block_1, "write the sensitivity, block 1"),
           write_registers(kSensitivity2, sensitivity.block_2, "write the sensitivity, block 2"),
           write_register(kMode, mode_of(settings.format), "write the camera's format"),
+          {.report = request_stream(settings.format), .answer = Answer::none},
           write_register(kPower, kTracking, "start the camera")};
 }
 
 std::vector<Step> check_steps(const WiimoteSettings& settings) {
   const Sensitivity& sensitivity = settings.sensitivity;
   const std::uint8_t tracking = kTracking, mode = mode_of(settings.format);
-  return {compare_registers(kPower, {&tracking, 1}, "read back whether the camera runs"),
-          compare_registers(kMode, {&mode, 1}, "read back the camera's format"),
+  return {compare_registers(kMode, {&mode, 1}, "read back the camera's format"),
+          compare_registers(kPower, {&tracking, 1}, "read back whether the camera runs"),
           compare_registers(kSensitivity1, sensitivity.block_1, "read back the sensitivity"),
           compare_registers(kSensitivity2, sensitivity.block_2, "read back the sensitivity")};
 }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "tracker/wiimote/report.h"
-#include "tracker/wiimote/sensitivity.h"
 
 namespace vindu {
 
@@ -27,9 +26,9 @@ struct OutputReport {
   std::span<const std::uint8_t> span() const { return std::span(bytes).first(size); }
 };
 
-enum class Answer { status, memory, acknowledgement };
+enum class Answer { status, memory, acknowledgement, none };
 
-/// A command and the answer that ends it.
+/// A command and the answer that ends it. One without is never the last.
 struct Step {
   OutputReport report;
   Answer answer = Answer::acknowledgement;
@@ -53,7 +52,8 @@ OutputReport rumble_only();  ///< carries nothing but the rumble bit, which the 
 
 /// Status, calibration, player LEDs: what is done once a connection.
 std::vector<Step> greeting_steps(const WiimoteSettings& settings);
-/// Switches the camera on and writes its registers.
+/// Switches the camera on and writes its registers. The stream is asked for before the last, so
+/// that dots come as soon as there are any.
 std::vector<Step> camera_steps(const WiimoteSettings& settings);
 /// Reads those registers back.
 std::vector<Step> check_steps(const WiimoteSettings& settings);

@@ -30,6 +30,8 @@ HidWiimoteKernel::HidWiimoteKernel(const KernelOptions& options, Time found)
   steps.insert(steps.end(), detect.begin(), detect.end());
   steps.push_back({{0x15, 0x00}, 0x20});  // its power supply is registered, and read at once
   schedule(steps, found);
+  if (options_.battery_read_every > Duration::zero())
+    battery_timer_ = found + options_.battery_read_every;
 }
 
 // What it does with both ports: initialise, decrypt, read who is there; the second write only if
@@ -111,7 +113,7 @@ void HidWiimoteKernel::input(std::span<const std::uint8_t> report, Time at) {
 }
 
 Time HidWiimoteKernel::next_event() const {
-  Time soonest = timer_;
+  Time soonest = std::min(timer_, battery_timer_);
   if (wait_) soonest = std::min(soonest, wait_->deadline);
   if (!writes_.empty()) soonest = std::min(soonest, writes_.front().at);
   return soonest;
@@ -124,7 +126,10 @@ std::optional<KernelWrite> HidWiimoteKernel::next(Time until) {
       writes_.pop_front();
       return first;
     }
-    if (timer_ == at) {
+    if (battery_timer_ == at) {
+      battery_timer_ += options_.battery_read_every;
+      read_battery(at);
+    } else if (timer_ == at) {
       timer_ = Time::max();
       check(at);
     } else {

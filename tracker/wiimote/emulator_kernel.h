@@ -20,6 +20,7 @@ struct KernelOptions {
   /// From what it reacts to until its worker writes.
   Duration reaction_shortest = std::chrono::microseconds(50);
   Duration reaction_longest = std::chrono::milliseconds(2);
+  Duration battery_read_every{};  ///< by a desktop's power daemon; zero: never
   std::uint64_t seed = 1;
 };
 
@@ -79,6 +80,7 @@ class HidWiimoteKernel {
   std::deque<Step> steps_;
   std::optional<Wait> wait_;
   Time timer_ = Time::max();
+  Time battery_timer_ = Time::max();
   bool plugged_ = false;  // an extension, as the last status report said
   bool camera_ = false;
   bool accelerometer_ = false;

@@ -13,6 +13,14 @@ LinkOptions two_on_one_adapter() {
   return options;
 }
 
+LinkOptions bad_link() {
+  LinkOptions options = two_on_one_adapter();
+  options.loss = 0.05;
+  options.delay = std::chrono::milliseconds(15);
+  options.jitter = std::chrono::milliseconds(5);
+  return options;
+}
+
 EmulatedLink::EmulatedLink(const LinkOptions& options, std::uint64_t seed)
     : options_(options), random_(seed) {}
 

@@ -31,6 +31,10 @@ struct LinkOptions {
 /// report where one device alone has 10.25 ms.
 LinkOptions two_on_one_adapter();
 
+/// The same with 5 % of the data reports lost and 15 to 20 ms of delay: worse than anything that
+/// was measured, to show what a tracker makes of it.
+LinkOptions bad_link();
+
 /// Bound to one thread.
 class EmulatedLink {
  public:

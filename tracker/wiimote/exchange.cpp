@@ -7,6 +7,8 @@ namespace vindu {
 namespace {
 
 constexpr int kBusy = 4;
+constexpr Duration kOursToCome = std::chrono::milliseconds(30);
+constexpr int kRefusals = 2;  // one may have been somebody else's
 
 /// Whether the memory report answers the step's read: the address is the last two of its bytes.
 bool answers(const MemoryReport& memory, const Step& step) {
@@ -29,14 +31,14 @@ bool as_expected(const MemoryReport& memory, const Step& step) {
 void Exchange::begin(std::vector<Step> steps, const Patience& patience) {
   steps_.assign(std::make_move_iterator(steps.begin()), std::make_move_iterator(steps.end()));
   patience_ = patience;
-  tries_ = 0;
+  tries_ = refused_ = 0;
   next_try_ = {};
   timeout_ = Progress::none;
 }
 
 Progress Exchange::end_step() {
   steps_.pop_front();
-  tries_ = 0;
+  tries_ = refused_ = 0;
   next_try_ = {};
   return steps_.empty() ? Progress::finished : Progress::step;
 }
@@ -47,36 +49,47 @@ Progress Exchange::fail(Progress how, const std::string& why) {
   return how;
 }
 
-Progress Exchange::take(const Report& report) {
+Progress Exchange::refuse(int error) {
+  return fail(Progress::failed, "the Wiimote refused it with error " + std::to_string(error));
+}
+
+Progress Exchange::take(const Report& report, Time arrival) {
   if (steps_.empty() || tries_ == 0) return Progress::none;
   const Step& step = steps_.front();
-  int error = 0;
   if (std::holds_alternative<StatusReport>(report)) {
     return step.answer == Answer::status ? end_step() : Progress::none;
   } else if (const auto* acknowledgement = std::get_if<Acknowledgement>(&report)) {
     if (!answers(*acknowledgement, step)) return Progress::none;
-    error = acknowledgement->error;
+    if (acknowledgement->error == 0) return end_step();
+    refused_ = acknowledgement->error;  // unless it answers somebody else, and ours is to come
+    next_try_ = std::min(next_try_, arrival + kOursToCome);
+    return Progress::none;
   } else if (const auto* memory = std::get_if<MemoryReport>(&report)) {
     if (!answers(*memory, step) || memory->error == kBusy) return Progress::none;
-    error = memory->error;
-    if (error == 0 && !as_expected(*memory, step))
-      return fail(Progress::failed, "it is not what was written");
-  } else {
-    return Progress::none;
+    if (memory->error != 0) return refuse(memory->error);
+    if (!as_expected(*memory, step)) return fail(Progress::failed, "it is not what was written");
+    return end_step();
   }
-  if (error == 0) return end_step();
-  return fail(Progress::failed, "the Wiimote refused it with error " + std::to_string(error));
+  return Progress::none;
 }
 
 std::optional<OutputReport> Exchange::next_output(Time now) {
   while (!steps_.empty() && now >= next_try_) {
-    if (tries_ < patience_.tries) {
+    if (steps_.front().answer == Answer::none) {
+      const OutputReport report = steps_.front().report;
+      end_step();
+      return report;
+    }
+    const bool refused = refused_ != 0 && tries_ >= kRefusals;
+    if (tries_ < patience_.tries && !refused) {
+      refused_ = 0;
       if (++tries_ > 1) ++repeated_;
       next_try_ = now + patience_.timeout;
       return steps_.front().report;
     }
-    timeout_ =
-        patience_.go_on ? end_step() : fail(Progress::deserted, "the Wiimote gave no answer");
+    timeout_ = refused_ != 0     ? refuse(refused_)
+               : patience_.go_on ? end_step()
+                                 : fail(Progress::deserted, "the Wiimote gave no answer");
   }
   return std::nullopt;
 }

@@ -32,11 +32,11 @@ class Exchange {
   void abandon() { steps_.clear(); }
 
   /// Offers a report that has come.
-  Progress take(const Report& report);
+  Progress take(const Report& report, Time arrival);
   /// The command to write now, for the first time or again.
   std::optional<OutputReport> next_output(Time now);
-  /// What became of the exchange for want of answers, since the last call: none, finished (where
-  /// it goes on without) or deserted.
+  /// What became of the exchange for want of good answers, since the last call: none, finished
+  /// (where it goes on without), failed or deserted.
   Progress take_timeout();
   /// Why it failed or was deserted.
   const std::string& failure() const { return failure_; }
@@ -48,11 +48,13 @@ class Exchange {
  private:
   Progress end_step();
   Progress fail(Progress how, const std::string& why);
+  Progress refuse(int error);
 
   std::deque<Step> steps_;
   Patience patience_;
   Time next_try_{};
   int tries_ = 0;
+  int refused_ = 0;  // the last try, with this error
   Progress timeout_ = Progress::none;
   std::string failure_;
   std::uint64_t repeated_ = 0;

@@ -11,11 +11,10 @@
 #include <string_view>
 #include <variant>
 
+#include "core/infrared.h"
 #include "tracker/observation.h"
 
 namespace vindu {
-
-enum class IrFormat : std::uint8_t { basic, extended, full };
 
 /// What only the full format has: the bright region, in sensor pixels (128 x 96), and its light.
 struct Blob {

@@ -10,14 +10,19 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Patience kStarting{milliseconds(250), 4};
+constexpr Patience kRestarting{milliseconds(100), 4};  // it answered a moment ago
 constexpr Patience kDeaf{milliseconds(50), 1, true};
 constexpr Patience kChecking{milliseconds(100), 3};
 
-// Two periods of the stream without a report: it has stopped. (Asking again at once, on the event
-// that stops it, loses a race against the kernel's own command in one case of six.)
-constexpr Duration kStopped = milliseconds(31);
+// The stream has stopped. Not sooner: each request for it makes the device send a report at once,
+// which is in the way where the radio is busy.
+constexpr Duration kStopped = kGap + milliseconds(1);
+// A status report stopped it. The kernel then chooses its own report, within a millisecond or two;
+// asking at once loses that race in one case of six.
+constexpr Duration kAfterStatus = milliseconds(5);
 constexpr Duration kAskAgain = milliseconds(15);
-constexpr Duration kRestart = milliseconds(600);  // asking did not help: start the camera again
+constexpr Duration kUnanswered = milliseconds(40);  // asking once did not help: nor would a check
+constexpr Duration kRestart = milliseconds(600);    // asking did not help: start the camera again
 constexpr Duration kFirstCheck = milliseconds(60), kCheckAgain = std::chrono::seconds(2);
 // The answers take the place of four data reports.
 constexpr Duration kCheckEvery = std::chrono::seconds(10);
@@ -78,11 +83,13 @@ void WiimoteSession::begin(Phase phase, Time now) {
   if (phase == Phase::checking) exchange_.begin(check_steps(settings_), kChecking);
   if (phase == Phase::starting) {
     ++health_.starts;
-    exchange_.begin(camera_steps(settings_), deaf_ ? kDeaf : kStarting);
+    exchange_.begin(camera_steps(settings_), deaf_          ? kDeaf
+                                             : camera_lost_ ? kRestarting
+                                                            : kStarting);
   }
   if (phase == Phase::streaming) {
     gaps_.expect(now);
-    next_request_ = now;
+    next_request_ = std::max(next_request_, now);
     restart_at_ = now + kRestart;
     next_check_ = now + kFirstCheck;
   }
@@ -99,7 +106,7 @@ std::optional<WiimoteSample> WiimoteSession::take(std::span<const std::uint8_t> 
   }
   const Report& report = *parsed.report;
   keep_calibration(report);
-  const Progress progress = exchange_.take(report);
+  const Progress progress = exchange_.take(report, arrival);
   if (progress != Progress::none) deaf_ = false;
   after_exchange(progress, arrival);
   if (const auto* foreign = std::get_if<Acknowledgement>(&report);
@@ -133,9 +140,9 @@ void WiimoteSession::exchange_failed(Time now) {
     gaps_.suspect(GapCause::camera, now);
     if (silent_since_) gaps_.none_since(*silent_since_);
     camera_lost_ = true;
-    if (++fruitless_starts_ < kManyStarts) return begin(Phase::starting, now);
-    health_.trouble += "; if that goes on, end other programs that use the Wiimote";
   }
+  if (++fruitless_starts_ < kManyStarts) return begin(Phase::starting, now);
+  health_.trouble += "; if that goes on, end other programs that use the Wiimote";
   begin(Phase::resting, now);
 }
 
@@ -159,6 +166,10 @@ void WiimoteSession::take_foreign_command(Time arrival) {
   next_check_ = arrival + kFirstCheck;
 }
 
+void WiimoteSession::ask_soon(Time at) {
+  next_request_ = std::min(next_request_, std::max(at, asked_ + kAskAgain));
+}
+
 void WiimoteSession::check_soon(Time now) {
   next_check_ = std::min(next_check_, now + kFirstCheck);
 }
@@ -175,6 +186,7 @@ void WiimoteSession::take_status(const StatusReport& status, Time arrival) {
   health_.status = status;
   if (!watching()) return;
   gaps_.suspect(plugged ? GapCause::extension : GapCause::status, arrival);
+  ask_soon(arrival + kAfterStatus);
   if (!status.camera_on) next_check_ = arrival;
 }
 
@@ -183,8 +195,9 @@ std::optional<WiimoteSample> WiimoteSession::take_data(const DataReport& data, T
   if (!data.camera_silent) silent_since_.reset();
   if (!expected && watching()) {
     gaps_.suspect(GapCause::mode, arrival);
-    // Whoever changes the camera sets the report last; one who still waits for answers is let be.
-    const bool others_at_work = arrival - last_foreign_ < kFirstCheck;
+    ask_soon(arrival);
+    // Whoever changes the camera sets a report with dots last; one who has not yet is let be.
+    const bool others_at_work = !data.slots && arrival - last_foreign_ < kFirstCheck;
     next_check_ = std::min(next_check_, others_at_work ? last_foreign_ + kFirstCheck : arrival);
   }
   if (expected) {
@@ -192,7 +205,8 @@ std::optional<WiimoteSample> WiimoteSession::take_data(const DataReport& data, T
       silent_since_ = arrival;
       check_soon(arrival);
     }
-    if (phase_ != Phase::greeting && !(camera_lost_ && data.camera_silent)) gaps_.sample(arrival);
+    const bool off = data.camera_silent && (camera_lost_ || phase_ == Phase::starting);
+    if (phase_ != Phase::greeting && !off) gaps_.sample(arrival);
     next_request_ = arrival + kStopped;
     restart_at_ = arrival + kRestart;
   }
@@ -221,11 +235,12 @@ std::optional<OutputReport> WiimoteSession::watch(Time now) {
     begin(now - last_report_ > kRestart ? Phase::greeting : Phase::starting, now);
     return std::nullopt;
   }
-  if (gaps_.open(now) > kGap) {
+  if (gaps_.open(now) > kUnanswered) {
     exchange_.abandon();
     phase_ = Phase::streaming;
     check_soon(now);
   }
+  asked_ = now;
   next_request_ = now + kAskAgain;
   return request_stream(settings_.format);
 }

@@ -76,6 +76,7 @@ class WiimoteSession {
   void exchange_failed(Time now);
   void exchange_deserted(Time now);
   void take_foreign_command(Time arrival);
+  void ask_soon(Time at);
   void check_soon(Time now);
   void take_status(const StatusReport& status, Time arrival);
   void keep_calibration(const Report& report);
@@ -90,6 +91,7 @@ class WiimoteSession {
   Exchange exchange_;
   GapCounter gaps_;
   Time next_request_{};  // of the stream, unless it comes by itself
+  Time asked_{};         // for it, the last time
   Time restart_at_{};    // unless it comes before
   Time next_check_{};
   Time rest_until_{};

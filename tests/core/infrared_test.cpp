@@ -1,5 +1,5 @@
-// Sensitivities by name and by digits.
-#include "tracker/wiimote/sensitivity.h"
+// Sensitivities by name and by digits, formats by name.
+#include "core/infrared.h"
 
 #include <gmock/gmock.h>
 
@@ -32,6 +32,13 @@ TEST(Sensitivity, NamesWhatThereIs) {
     EXPECT_THAT(sensitivity_names(), HasSubstr(name));
     EXPECT_TRUE(sensitivity_from(name));
   }
+}
+
+TEST(IrFormat, HasAName) {
+  EXPECT_EQ(ir_format_from("basic"), IrFormat::basic);
+  EXPECT_EQ(ir_format_from("extended"), IrFormat::extended);
+  EXPECT_EQ(ir_format_from("full"), IrFormat::full);
+  EXPECT_FALSE(ir_format_from("Full"));
 }
 
 }  // namespace

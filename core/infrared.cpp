@@ -1,4 +1,4 @@
-#include "tracker/wiimote/sensitivity.h"
+#include "core/infrared.h"
 
 #include <algorithm>
 #include <charconv>
@@ -35,6 +35,13 @@ std::optional<std::vector<std::uint8_t>> bytes_from_hex(std::string text) {
 }
 
 }  // namespace
+
+std::optional<IrFormat> ir_format_from(std::string_view name) {
+  if (name == "basic") return IrFormat::basic;
+  if (name == "extended") return IrFormat::extended;
+  if (name == "full") return IrFormat::full;
+  return std::nullopt;
+}
 
 std::string sensitivity_names() {
   std::string names;

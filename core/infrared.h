@@ -1,14 +1,20 @@
-// What the infrared camera takes for a dot: two blocks of register bytes, by name or typed. Which
-// name suits depends on distance and LEDs: too little gain and sub-pixel steps die, too much and
-// reflections win one of the four slots.
+// What the infrared camera of a Wiimote is set to: how it reports its dots, and what it takes for
+// one. Which sensitivity suits depends on distance and LEDs: too little gain and sub-pixel steps
+// die, too much and reflections win one of the four slots.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace vindu {
+
+enum class IrFormat : std::uint8_t { basic, extended, full };
+
+/// Of its name; empty when it is none.
+std::optional<IrFormat> ir_format_from(std::string_view name);
 
 /// Written to registers 0xb00000 and 0xb0001a. Of the first, [6] is the largest blob and [8] the
 /// gain (less is more); of the second, [0] is the limit of the gain, less than [8], and [1] the
