@@ -10,70 +10,86 @@ namespace {
 constexpr double kSmoothing_s = 1 / (2 * kPi * 6);  // of each of two low-passes: 6 Hz
 constexpr double kGap_s = 0.25;                     // without a sample; longer ones begin anew
 constexpr double kSettling_s = 0.3;                 // of a filter that has just found the head
-constexpr double kQuiet_s = 0.6;                    // between two gestures
+constexpr double kQuiet_s = 1.5;                    // between two gestures
 constexpr double kHysteresis = 0.4;                 // of a turning point, in least swings
 constexpr double kRemembered_s = 2;
 constexpr std::size_t kSwings = 6;
 
 // A row of swings is a gesture when there are three of about one size, or, as a quick nod, two
 // larger ones, down and as far up again. Somebody who glances aside swings twice.
-constexpr std::size_t kCyclicSwings = 3;
-constexpr double kCyclicEvenness = 0.4;
-constexpr std::size_t kQuickSwings = 2;
-constexpr double kQuickSwing = 1.5;  // in least swings
+constexpr double kEvenness = 0.5;     // of the first and the third
+constexpr double kSteadiness = 0.45;  // of the times from one to the next
+constexpr double kOpposition = 0.25;  // of the second to them: the head may turn meanwhile
+constexpr double kSmallest = 0.8;     // of the three, in least swings
+constexpr double kQuickSwing = 1.5;   // in least swings
 constexpr double kQuickEvenness = 0.6;
-constexpr double kDominance = 1.4;  // over the swings about the other axis
+constexpr double kDominance = 2;  // over the swings about the other axis
 constexpr double kClearSwing_rad = radians(15);
+
+using Swings = std::deque<Zigzag::Swing>;
 
 double size_of(const Zigzag::Swing& swing) { return std::abs(swing.size_rad); }
 
+double ratio(double a, double b) { return std::min(a, b) / std::max(a, b); }
+
 struct Row {
-  double least_rad = 0;  // of the swings' sizes
-  double evenness = 0;   // least over largest
-  double count = 0;
+  double size_rad = 0;  // of a swing, without the turn of the head as a whole
+  double evenness = 0;
+  double fullness = 0;  // 1: as many swings as one can ask for
 };
 
-/// The newest `count` swings, when they follow each other at a gesture's rate until now.
-std::optional<Row> row_of(const std::deque<Zigzag::Swing>& swings, std::size_t count, double now_s,
-                          const GestureOptions& options) {
-  if (swings.size() < count) return std::nullopt;
+/// Whether the newest `count` swings follow each other at a gesture's rate until now.
+bool in_rhythm(const Swings& swings, std::size_t count, double now_s,
+               const GestureOptions& options) {
   const double longest_s = 0.5 / options.least_rate_hz;
-  const double shortest_s = 0.5 / options.largest_rate_hz;
-  if (now_s - swings.back().crossing_s > longest_s) return std::nullopt;
-  double least = size_of(swings.back()), largest = least;
+  const double shortest_s = 0.8 * 0.5 / options.largest_rate_hz;
+  if (swings.size() < count || now_s - swings.back().crossing_s > longest_s) return false;
   for (std::size_t i = swings.size() - count; i + 1 < swings.size(); ++i) {
     const double half_s = swings[i + 1].crossing_s - swings[i].crossing_s;
-    if (half_s > longest_s || half_s < 0.8 * shortest_s) return std::nullopt;
-    least = std::min(least, size_of(swings[i]));
-    largest = std::max(largest, size_of(swings[i]));
+    if (half_s > longest_s || half_s < shortest_s) return false;
   }
-  return Row{least, least / largest, static_cast<double>(count)};
+  return true;
+}
+
+/// To, fro and to. A steady turn adds to the first and third what it takes from the second.
+std::optional<Row> cyclic_row(const Swings& swings, double now_s, const GestureOptions& options) {
+  if (!in_rhythm(swings, 3, now_s, options)) return std::nullopt;
+  const double least_rad = radians(options.least_swing_deg);
+  const double first = size_of(swings[swings.size() - 3]);
+  const double second = size_of(swings[swings.size() - 2]);
+  const double third = size_of(swings.back());
+  const double outer = 0.5 * (first + third);
+  const double half_s = swings[swings.size() - 2].crossing_s - swings[swings.size() - 3].crossing_s;
+  const double next_s = swings.back().crossing_s - swings[swings.size() - 2].crossing_s;
+  const Row row{0.5 * (outer + second), ratio(first, third) * std::sqrt(ratio(second, outer)), 1};
+  const bool fits = row.size_rad >= least_rad &&
+                    std::min({first, second, third}) >= kSmallest * least_rad &&
+                    ratio(first, third) >= kEvenness && ratio(second, outer) >= kOpposition &&
+                    ratio(half_s, next_s) >= kSteadiness;
+  return fits ? std::optional(row) : std::nullopt;
+}
+
+/// Down, and up again.
+std::optional<Row> quick_nod(const Swings& pitch, double now_s, const GestureOptions& options) {
+  if (!in_rhythm(pitch, 2, now_s, options) || pitch.back().size_rad < 0) return std::nullopt;
+  const double down = size_of(pitch[pitch.size() - 2]), up = size_of(pitch.back());
+  const bool fits = std::min(down, up) >= kQuickSwing * radians(options.least_swing_deg) &&
+                    ratio(down, up) >= kQuickEvenness;
+  return fits ? std::optional(Row{std::min(down, up), ratio(down, up), 0.5}) : std::nullopt;
 }
 
 /// Size of the swings to and fro about an axis within the last second; 0: none.
-double wavering_rad(const std::deque<Zigzag::Swing>& swings, double now_s) {
-  if (swings.size() < 2) return 0;
-  const Zigzag::Swing &last = swings.back(), &before = swings[swings.size() - 2];
-  return now_s - before.crossing_s < 1 ? std::min(size_of(last), size_of(before)) : 0;
-}
-
-std::optional<Row> gesture_row(const std::deque<Zigzag::Swing>& swings, bool nod, double now_s,
-                               const GestureOptions& options) {
-  const double least_rad = radians(options.least_swing_deg);
-  const auto cyclic = row_of(swings, kCyclicSwings, now_s, options);
-  if (cyclic && cyclic->least_rad >= least_rad && cyclic->evenness >= kCyclicEvenness)
-    return cyclic;
-  const auto quick = nod ? row_of(swings, kQuickSwings, now_s, options) : std::nullopt;
-  const bool up = quick && swings.back().size_rad > 0;
-  if (up && quick->least_rad >= kQuickSwing * least_rad && quick->evenness >= kQuickEvenness)
-    return quick;
-  return std::nullopt;
+double wavering_rad(const Swings& swings, double now_s) {
+  double largest = 0;
+  for (std::size_t i = 1; i < swings.size(); ++i)
+    if (now_s - swings[i - 1].crossing_s < 1)
+      largest = std::max(largest, std::min(size_of(swings[i - 1]), size_of(swings[i])));
+  return largest;
 }
 
 double confidence_of(const Row& row, double other_rad) {
-  const double clear = std::min(1.0, row.least_rad / kClearSwing_rad);
-  const double often = std::min(1.0, row.count / kCyclicSwings);
-  return (1 - other_rad / row.least_rad) * (0.4 * clear + 0.3 * row.evenness + 0.3 * often);
+  const double clear = std::min(1.0, row.size_rad / kClearSwing_rad);
+  return (1 - other_rad / row.size_rad) * (0.4 * clear + 0.3 * row.evenness + 0.3 * row.fullness);
 }
 
 }  // namespace
@@ -169,9 +185,10 @@ std::optional<GestureEvent> GestureDetector::swing_event(double now_s) {
   for (const bool nod : {true, false}) {
     const Zigzag& own = nod ? pitch_swings_ : yaw_swings_;
     const Zigzag& other = nod ? yaw_swings_ : pitch_swings_;
-    const auto row = gesture_row(own.swings(), nod, now_s, options_);
+    auto row = cyclic_row(own.swings(), now_s, options_);
+    if (!row && nod) row = quick_nod(own.swings(), now_s, options_);
     const double other_rad = wavering_rad(other.swings(), now_s);
-    if (!row || row->least_rad < kDominance * other_rad) continue;
+    if (!row || row->size_rad < kDominance * other_rad) continue;
     const bool goes_on = now_s < quiet_until_s_;
     quiet_until_s_ = now_s + kQuiet_s;
     if (goes_on) return std::nullopt;
