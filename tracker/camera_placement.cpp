@@ -1,17 +1,25 @@
 #include "tracker/camera_placement.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "core/error.h"
+#include "core/random.h"
 
 namespace vindu {
 namespace {
 
+constexpr int kMostStarts = 10, kFewestStarts = 3;
+constexpr int kStartsTimesCameras = 40;  // more cameras take longer each
+constexpr std::size_t kRefined = 3;      // the best of them
 constexpr int kMostExchanges = 8;
+constexpr std::size_t kCoarse = 3;    // the exchange looks at one pose of so many
 constexpr double kFirstStep_m = 0.4;  // of the refinement
 constexpr double kLastStep_m = 0.04;
+constexpr int kMostRounds = 12;
 constexpr double kHardlyBetter = 1e-6;  // of worth
 
 /// A camera on a rail.
@@ -21,43 +29,63 @@ struct Mount {
   Vec3 aim_in_room = Vec3::Zero();
 };
 
+using Poses = std::vector<Rigid3>;
 using Sights = std::vector<Sight>;  // one a pose
+
+/// Cameras and what each sees.
+struct Team {
+  std::vector<Mount> mounts;
+  std::vector<Sights> sights;
+  double worth = 0;
+};
+
+Sights all_but(const Team& team, std::size_t camera) {
+  Sights sum(team.sights.front().size());
+  for (std::size_t other = 0; other < team.sights.size(); ++other)
+    for (std::size_t i = 0; other != camera && i < sum.size(); ++i) sum[i] += team.sights[other][i];
+  return sum;
+}
 
 class Search {
  public:
   Search(const PlacementTask& task, const DotNoise& noise, const Progress& progress)
       : task_(task), noise_(noise), progress_(progress) {
+    for (std::size_t i = 0; i < task.poses.size(); i += kCoarse) coarse_.push_back(task.poses[i]);
     for (std::size_t rail = 0; rail < task.rails.size(); ++rail) add_candidates(rail);
   }
 
   std::vector<CameraConfig> place(int count) {
-    const double rounds = 2.0 * count + 1;
-    for (int i = 0; i < count; ++i) {
-      chosen_.push_back({});
-      seen_.emplace_back(task_.poses.size());
-      exchange(chosen_.size() - 1, 0);
-      tell((i + 1) / rounds);
+    const int starts = std::clamp(kStartsTimesCameras / count, kFewestStarts, kMostStarts);
+    std::vector<Team> teams;
+    for (int start = 0; start < starts; ++start) {
+      teams.push_back(start == 0 ? greedy(count) : any(count, static_cast<std::uint64_t>(start)));
+      exchange_all(teams.back());
+      tell(0.7 * (start + 1) / starts);
     }
-    for (int round = 0; round < kMostExchanges && exchange_all(); ++round)
-      tell((count + 1.0 + count * round / kMostExchanges) / rounds);
-    refine();
-    std::vector<CameraConfig> cameras;
-    for (const Mount& mount : chosen_) cameras.push_back(camera_of(mount));
-    name_from_left_to_right(cameras);
-    return cameras;
+    std::ranges::stable_sort(teams, std::greater(), &Team::worth);
+    teams.resize(kRefined);
+    for (std::size_t i = 0; i < teams.size(); ++i) {
+      refine(teams[i]);
+      tell(0.7 + 0.3 * static_cast<double>(i + 1) / kRefined);
+    }
+    return cameras_of(*std::ranges::max_element(teams, {}, &Team::worth));
   }
 
  private:
   void tell(double share) const {
-    if (progress_) progress_(share);
+    if (progress_) progress_(std::min(1.0, share));
   }
 
-  static void name_from_left_to_right(std::vector<CameraConfig>& cameras) {
+  /// Named from left to right.
+  std::vector<CameraConfig> cameras_of(const Team& team) const {
+    std::vector<CameraConfig> cameras;
+    for (const Mount& mount : team.mounts) cameras.push_back(camera_of(mount));
     std::ranges::stable_sort(cameras, {}, [](const CameraConfig& camera) {
       return camera.room_from_camera.translation.x();
     });
     for (std::size_t i = 0; i < cameras.size(); ++i)
       cameras[i].name = "plan-" + std::to_string(i + 1);
+    return cameras;
   }
 
   CameraConfig camera_of(const Mount& mount) const {
@@ -68,12 +96,11 @@ class Search {
     return camera;
   }
 
-  Sights sights_of(const Mount& mount) const {
+  Sights sights_of(const Mount& mount, const Poses& poses) const {
     const Onlooker onlooker(camera_of(mount));
     Sights sights;
-    sights.reserve(task_.poses.size());
-    for (const Rigid3& pose : task_.poses)
-      sights.push_back(onlooker.look(task_.head, pose, noise_));
+    sights.reserve(poses.size());
+    for (const Rigid3& pose : poses) sights.push_back(onlooker.look(task_.head, pose, noise_));
     return sights;
   }
 
@@ -83,8 +110,34 @@ class Search {
     for (int step = 0; step <= steps; ++step)
       for (const Vec3& aim : task_.aims_in_room) {
         candidates_.push_back({rail, steps ? static_cast<double>(step) / steps : 0, aim});
-        candidate_sights_.push_back(sights_of(candidates_.back()));
+        candidate_sights_.push_back(sights_of(candidates_.back(), coarse_));
       }
+  }
+
+  void add(Team& team, std::size_t candidate) const {
+    team.mounts.push_back(candidates_[candidate]);
+    team.sights.push_back(candidate_sights_[candidate]);
+  }
+
+  /// Each camera where it is worth most beside those before it.
+  Team greedy(int count) const {
+    Team team;
+    for (int i = 0; i < count; ++i) {
+      add(team, 0);
+      team.worth = 0;
+      exchange(team, team.mounts.size() - 1);
+    }
+    return team;
+  }
+
+  Team any(int count, std::uint64_t seed) const {
+    Random random(seed);
+    Team team;
+    for (int i = 0; i < count; ++i)
+      add(team,
+          static_cast<std::size_t>(random.uniform(0, static_cast<double>(candidates_.size()))));
+    team.worth = worth_with(all_but(team, 0), team.sights[0]);
+    return team;
   }
 
   double worth_with(const Sights& others, const Sights& own) const {
@@ -97,36 +150,30 @@ class Search {
     return sum / static_cast<double>(others.size());
   }
 
-  Sights all_but(std::size_t camera) const {
-    Sights sum(task_.poses.size());
-    for (std::size_t other = 0; other < seen_.size(); ++other)
-      for (std::size_t i = 0; other != camera && i < sum.size(); ++i) sum[i] += seen_[other][i];
-    return sum;
-  }
-
   /// Puts one camera where it is worth most beside the others. False where it stays.
-  bool exchange(std::size_t camera, double worth_now) {
-    const Sights others = all_but(camera);
-    double best = worth_now + kHardlyBetter;
+  bool exchange(Team& team, std::size_t camera) const {
+    const Sights others = all_but(team, camera);
     std::optional<std::size_t> better;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       const double value = worth_with(others, candidate_sights_[i]);
-      if (value > best) best = value, better = i;
+      if (value > team.worth + kHardlyBetter) team.worth = value, better = i;
     }
     if (!better) return false;
-    chosen_[camera] = candidates_[*better];
-    seen_[camera] = candidate_sights_[*better];
+    team.mounts[camera] = candidates_[*better];
+    team.sights[camera] = candidate_sights_[*better];
     return true;
   }
 
-  bool exchange_all() {
-    bool moved = false;
-    for (std::size_t camera = 0; camera < chosen_.size(); ++camera)
-      moved |= exchange(camera, worth_with(all_but(camera), seen_[camera]));
-    return moved;
+  void exchange_all(Team& team) const {
+    bool moved = true;
+    for (int round = 0; moved && round < kMostExchanges; ++round) {
+      moved = false;
+      for (std::size_t camera = 0; camera < team.mounts.size(); ++camera)
+        moved |= exchange(team, camera);
+    }
   }
 
-  /// The four ways a mount can change by a step, both directions.
+  /// The ways a mount can change by a step: along its rail, and its aim across and deep.
   std::vector<Mount> neighbours(const Mount& mount, double step_m) const {
     const Rail& rail = task_.rails[mount.rail];
     const double length_m = (rail.to_in_room - rail.from_in_room).norm();
@@ -141,42 +188,42 @@ class Search {
     return all;
   }
 
-  bool refine(std::size_t camera, double step_m) {
-    const Sights others = all_but(camera);
-    double best = worth_with(others, seen_[camera]) + kHardlyBetter;
+  bool refine(Team& team, std::size_t camera, double step_m) const {
+    const Sights others = all_but(team, camera);
     bool moved = false;
-    for (const Mount& mount : neighbours(chosen_[camera], step_m)) {
-      Sights sights = sights_of(mount);
+    for (const Mount& mount : neighbours(team.mounts[camera], step_m)) {
+      Sights sights = sights_of(mount, task_.poses);
       const double value = worth_with(others, sights);
-      if (value <= best) continue;
-      best = value;
-      chosen_[camera] = mount;
-      seen_[camera] = std::move(sights);
+      if (value <= team.worth + kHardlyBetter) continue;
+      team.worth = value;
+      team.mounts[camera] = mount;
+      team.sights[camera] = std::move(sights);
       moved = true;
     }
     return moved;
   }
 
-  void refine() {
-    constexpr int kMostRounds = 12;
+  /// From here on all poses count.
+  void refine(Team& team) const {
+    for (std::size_t i = 0; i < team.mounts.size(); ++i)
+      team.sights[i] = sights_of(team.mounts[i], task_.poses);
+    team.worth = worth_with(all_but(team, 0), team.sights[0]);
     for (double step_m = kFirstStep_m; step_m >= kLastStep_m; step_m /= 2) {
       bool moved = true;
       for (int round = 0; moved && round < kMostRounds; ++round) {
         moved = false;
-        for (std::size_t camera = 0; camera < chosen_.size(); ++camera)
-          moved |= refine(camera, step_m);
+        for (std::size_t camera = 0; camera < team.mounts.size(); ++camera)
+          moved |= refine(team, camera, step_m);
       }
     }
-    tell(1);
   }
 
   const PlacementTask& task_;
   const DotNoise& noise_;
   const Progress& progress_;
+  Poses coarse_;
   std::vector<Mount> candidates_;
-  std::vector<Sights> candidate_sights_;
-  std::vector<Mount> chosen_;
-  std::vector<Sights> seen_;  // by each chosen camera
+  std::vector<Sights> candidate_sights_;  // of the coarse poses
 };
 
 }  // namespace
@@ -207,6 +254,7 @@ double worth(const PoseBound& bound, double good_eye_m) {
 std::vector<CameraConfig> place_cameras(const PlacementTask& task, int count, const DotNoise& noise,
                                         const Progress& progress) {
   task.validate();
+  assert(count > 0);
   return Search(task, noise, progress).place(count);
 }
 

@@ -1,7 +1,7 @@
-// Where to mount N cameras so that a head is known well all over a walking area: a greedy choice
-// among places on rails and in corners, exchanged one by one while that helps, then moved and aimed
-// by ever smaller steps (greedy and exchange as in Fedorov 1972, Theory of Optimal Experiments, for
-// the like problem of choosing measurements). The same input gives the same places.
+// Where to mount N cameras so that a head is known well all over a walking area: places on rails
+// and in corners, from several beginnings exchanged one by one while that helps (as Fedorov 1972,
+// Theory of Optimal Experiments, chooses measurements), the best then moved and aimed by ever
+// smaller steps. The same input gives the same places.
 #pragma once
 
 #include <functional>
