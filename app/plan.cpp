@@ -110,7 +110,7 @@ CameraConfig lens_of(const Site& site) {
 
 /// The pose grid of the search is coarser than the study's.
 PlacementTask task_of(const Plan& plan, const PlanOptions& options) {
-  constexpr double kColumns = 12;
+  constexpr double kPlaces = 12;  // along the longer side
   constexpr int kYaws = 5, kAimsAcross = 5, kAimsDeep = 3;
   const WalkingArea& area = plan.area;
   const Vec2 size_m = area.largest_in_room - area.least_in_room;
@@ -120,7 +120,7 @@ PlacementTask task_of(const Plan& plan, const PlanOptions& options) {
   double sum_m = 0;
   for (const double height_m : area.eye_heights_m) sum_m += height_m;
   flat.eye_heights_m = {sum_m / static_cast<double>(area.eye_heights_m.size())};
-  task.poses = poses_in(flat, size_m.x() / kColumns, kYaws, task.head);
+  task.poses = poses_in(flat, size_m.maxCoeff() / kPlaces, kYaws, task.head);
   task.rails = plan.rails;
   for (int i = 0; i < kAimsAcross; ++i)
     for (int k = 0; k < kAimsDeep; ++k)
@@ -128,7 +128,9 @@ PlacementTask task_of(const Plan& plan, const PlanOptions& options) {
                                      flat.eye_heights_m[0],
                                      area.least_in_room.y() + size_m.y() * (k + 0.5) / kAimsDeep);
   task.camera = lens_of(plan.site);
-  task.spacing_m = 0.4;
+  const Rail& back = plan.rails.front();
+  task.spacing_m = std::max(0.4, (back.to_in_room - back.from_in_room).norm() / 20);
+  task.spacing_m = std::max(task.spacing_m, size_m.maxCoeff() / 15);
   task.good_eye_m = 1e-3 * options.good_mm;
   return task;
 }

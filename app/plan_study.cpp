@@ -7,6 +7,7 @@ namespace vindu::app {
 namespace {
 
 constexpr double kCell_m = 0.1;
+constexpr double kMostCells = 80;  // along a side; larger areas have larger cells
 constexpr int kYaws = 9;
 
 double quantile(std::vector<double> values, double share) {
@@ -57,9 +58,12 @@ void fill(CellGrid& grid, std::span<const PoseBound> bounds, double good_eye_m) 
     grid.cells.push_back(cell_of(bounds.subspan(cell * each, each), good_eye_m));
 }
 
+double cell_size_m(const Vec2& size_m) { return std::max(kCell_m, size_m.maxCoeff() / kMostCells); }
+
 CellGrid grid_over(const Vec2& least, const Vec2& largest) {
   const Vec2 size_m = largest - least;
-  return {least, largest, cells_along(size_m.x(), kCell_m), cells_along(size_m.y(), kCell_m), {}};
+  const double step_m = cell_size_m(size_m);
+  return {least, largest, cells_along(size_m.x(), step_m), cells_along(size_m.y(), step_m), {}};
 }
 
 LevelFigures figures_of(const std::vector<PoseBound>& all, TrackingLevel level) {
@@ -128,7 +132,8 @@ Study study(const std::vector<CameraConfig>& cameras, const HeadConfig& head, co
   Study result;
   result.cameras = cameras;
   const std::vector<PoseBound> bounds =
-      survey(cameras, head, noise, poses_in(area, kCell_m, kYaws, head));
+      survey(cameras, head, noise,
+             poses_in(area, cell_size_m(area.largest_in_room - area.least_in_room), kYaws, head));
   result.plan = grid_over(area.least_in_room, area.largest_in_room);
   fill(result.plan, bounds, good_eye_m);
   for (int level = 0; level < kLevels; ++level)

@@ -20,6 +20,7 @@ constexpr std::size_t kCoarse = 3;    // the exchange looks at one pose of so ma
 constexpr double kFirstStep_m = 0.4;  // of the refinement
 constexpr double kLastStep_m = 0.04;
 constexpr int kMostRounds = 12;
+constexpr double kNearestAim_m = 0.2;
 constexpr double kHardlyBetter = 1e-6;  // of worth
 
 /// A camera on a rail.
@@ -52,6 +53,9 @@ class Search {
       : task_(task), noise_(noise), progress_(progress) {
     for (std::size_t i = 0; i < task.poses.size(); i += kCoarse) coarse_.push_back(task.poses[i]);
     for (std::size_t rail = 0; rail < task.rails.size(); ++rail) add_candidates(rail);
+    if (candidates_.empty())
+      throw Error({"every place to mount at is a point to aim at", "camera placement",
+                   "mount the cameras higher"});
   }
 
   std::vector<CameraConfig> place(int count) {
@@ -88,11 +92,19 @@ class Search {
     return cameras;
   }
 
-  CameraConfig camera_of(const Mount& mount) const {
+  Vec3 place_of(const Mount& mount) const {
     const Rail& rail = task_.rails[mount.rail];
-    const Vec3 place = rail.from_in_room + mount.along * (rail.to_in_room - rail.from_in_room);
+    return rail.from_in_room + mount.along * (rail.to_in_room - rail.from_in_room);
+  }
+
+  /// Whether there is a direction to look in.
+  bool can_look(const Mount& mount) const {
+    return (mount.aim_in_room - place_of(mount)).norm() > kNearestAim_m;
+  }
+
+  CameraConfig camera_of(const Mount& mount) const {
     CameraConfig camera = task_.camera;
-    camera.room_from_camera = look_at(place, mount.aim_in_room);
+    camera.room_from_camera = look_at(place_of(mount), mount.aim_in_room);
     return camera;
   }
 
@@ -109,7 +121,9 @@ class Search {
     const int steps = static_cast<int>(std::ceil(length_m / task_.spacing_m));
     for (int step = 0; step <= steps; ++step)
       for (const Vec3& aim : task_.aims_in_room) {
-        candidates_.push_back({rail, steps ? static_cast<double>(step) / steps : 0, aim});
+        const Mount mount{rail, steps ? static_cast<double>(step) / steps : 0, aim};
+        if (!can_look(mount)) continue;
+        candidates_.push_back(mount);
         candidate_sights_.push_back(sights_of(candidates_.back(), coarse_));
       }
   }
@@ -192,6 +206,7 @@ class Search {
     const Sights others = all_but(team, camera);
     bool moved = false;
     for (const Mount& mount : neighbours(team.mounts[camera], step_m)) {
+      if (!can_look(mount)) continue;
       Sights sights = sights_of(mount, task_.poses);
       const double value = worth_with(others, sights);
       if (value <= team.worth + kHardlyBetter) continue;

@@ -60,14 +60,14 @@ std::string wall_text() {
 TEST_F(PlanCommand, TheProposalIsReadyForTheWallFileAndTheSameAgain) {
   const std::string wall = write("wall.toml", wall_text());
   const ProcessResult proposed =
-      vindu({"plan", wall, "--propose", "3", "--json", "--out", path("plan.png")});
-  const ProcessResult text = vindu({"plan", wall, "--propose", "3", "--out", path("plan.png")});
+      vindu({"plan", wall, "--propose", "2", "--json", "--out", path("plan.png")});
+  const ProcessResult text = vindu({"plan", wall, "--propose", "2", "--out", path("plan.png")});
   ASSERT_EQ(text.exit_code, 0);
   const std::string ready =
       write("ready.toml", wall_text() + text.out.substr(text.out.find("[[camera]]")));
   const ProcessResult checked = vindu({"plan", ready, "--json", "--out", path("plan.png")});
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
-  EXPECT_THAT(checked.out, HasSubstr("plan-3"));
+  EXPECT_THAT(checked.out, HasSubstr("plan-2"));
   const std::size_t proposal = proposed.out.find("\"proposal\"");
   EXPECT_NEAR(number_after(checked.out, "covered_share"),
               number_after(proposed.out, "covered_share", proposal), 0.02);

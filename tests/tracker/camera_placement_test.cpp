@@ -104,6 +104,13 @@ TEST(CameraPlacement, TellsHowFarItIs) {
   EXPECT_EQ(told.back(), 1);
 }
 
+TEST(CameraPlacement, RefusesToMountACameraWhereItShouldLook) {
+  PlacementTask task = task_of_a_room();
+  task.rails = {{{0, 1.65, 2}, {0, 1.65, 2}}};
+  task.aims_in_room = {{0, 1.65, 2}};
+  EXPECT_THROW(place_cameras(task, 2, seen_from_behind), Error);
+}
+
 TEST(CameraPlacement, RefusesARoomWithoutPlaces) {
   PlacementTask task = task_of_a_room();
   task.rails.clear();
