@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -110,22 +111,19 @@ CameraConfig lens_of(const Site& site) {
 
 /// The pose grid of the search is coarser than the study's.
 PlacementTask task_of(const Plan& plan, const PlanOptions& options) {
-  constexpr double kPlaces = 12;  // along the longer side
+  constexpr double kPlaces = 14;  // along the longer side
   constexpr int kYaws = 5, kAimsAcross = 5, kAimsDeep = 3;
   const WalkingArea& area = plan.area;
   const Vec2 size_m = area.largest_in_room - area.least_in_room;
+  const auto [lowest_m, highest_m] = std::ranges::minmax(area.eye_heights_m);
   PlacementTask task;
   task.head = plan.site.head;
-  WalkingArea flat = area;
-  double sum_m = 0;
-  for (const double height_m : area.eye_heights_m) sum_m += height_m;
-  flat.eye_heights_m = {sum_m / static_cast<double>(area.eye_heights_m.size())};
-  task.poses = poses_in(flat, size_m.maxCoeff() / kPlaces, kYaws, task.head);
+  task.poses = poses_in(area, size_m.maxCoeff() / kPlaces, kYaws, task.head);
   task.rails = plan.rails;
   for (int i = 0; i < kAimsAcross; ++i)
     for (int k = 0; k < kAimsDeep; ++k)
       task.aims_in_room.emplace_back(area.least_in_room.x() + size_m.x() * (i + 0.5) / kAimsAcross,
-                                     flat.eye_heights_m[0],
+                                     0.5 * (lowest_m + highest_m),
                                      area.least_in_room.y() + size_m.y() * (k + 0.5) / kAimsDeep);
   task.camera = lens_of(plan.site);
   const Rail& back = plan.rails.front();

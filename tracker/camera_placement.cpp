@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <string>
 
 #include "core/error.h"
@@ -13,11 +14,11 @@ namespace vindu {
 namespace {
 
 constexpr int kMostStarts = 10, kFewestStarts = 3;
-constexpr int kStartsTimesCameras = 40;  // more cameras take longer each
+constexpr int kStartsTimesCameras = 60;  // more cameras take longer each
 constexpr std::size_t kRefined = 3;      // the best of them
 constexpr int kMostExchanges = 8;
-constexpr std::size_t kCoarse = 3;    // the exchange looks at one pose of so many
-constexpr double kFirstStep_m = 0.4;  // of the refinement
+constexpr std::size_t kCoarsePoses = 180;  // that the exchange looks at, about
+constexpr double kFirstStep_m = 0.4;       // of the refinement
 constexpr double kLastStep_m = 0.04;
 constexpr int kMostRounds = 12;
 constexpr double kNearestAim_m = 0.2;
@@ -40,6 +41,14 @@ struct Team {
   double worth = 0;
 };
 
+/// Poses come with so many headings and heights a place; a stride that shares no factor with their
+/// number takes some of each.
+std::size_t stride_over(std::size_t poses) {
+  std::size_t stride = std::max<std::size_t>(1, poses / kCoarsePoses);
+  while (std::gcd(stride, std::size_t{30}) != 1) ++stride;
+  return stride;
+}
+
 Sights all_but(const Team& team, std::size_t camera) {
   Sights sum(team.sights.front().size());
   for (std::size_t other = 0; other < team.sights.size(); ++other)
@@ -51,7 +60,8 @@ class Search {
  public:
   Search(const PlacementTask& task, const DotNoise& noise, const Progress& progress)
       : task_(task), noise_(noise), progress_(progress) {
-    for (std::size_t i = 0; i < task.poses.size(); i += kCoarse) coarse_.push_back(task.poses[i]);
+    const std::size_t stride = stride_over(task.poses.size());
+    for (std::size_t i = 0; i < task.poses.size(); i += stride) coarse_.push_back(task.poses[i]);
     for (std::size_t rail = 0; rail < task.rails.size(); ++rail) add_candidates(rail);
     if (candidates_.empty())
       throw Error({"every place to mount at is a point to aim at", "camera placement",
