@@ -17,5 +17,6 @@ void add_check(CLI::App& parent, Action& chosen);
 void add_wiimote(CLI::App& parent, Action& chosen);
 void add_record(CLI::App& parent, Action& chosen);
 void add_replay(CLI::App& parent, Action& chosen);
+void add_plan(CLI::App& parent, Action& chosen);
 
 }  // namespace vindu::app

@@ -1,0 +1,95 @@
+#include "app/diagram.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vindu::app {
+namespace {
+
+constexpr int kSamples = 4;  // a pixel and axis
+
+void blend(Rgba8& pixel, const Rgba8& colour, double cover) {
+  const double share = cover * colour[3] / 255;
+  for (int part = 0; part < 3; ++part)
+    pixel[part] =
+        static_cast<std::uint8_t>(std::lround(pixel[part] + share * (colour[part] - pixel[part])));
+}
+
+double side_of(const Vec2& from, const Vec2& to, const Vec2& point) {
+  const Vec2 way = to - from, off = point - from;
+  return way.x() * off.y() - way.y() * off.x();
+}
+
+bool inside(std::span<const Vec2> corners, const Vec2& point) {
+  bool left = false, right = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double side = side_of(corners[i], corners[(i + 1) % corners.size()], point);
+    (side > 0 ? left : right) = true;
+    if (left && right) return false;
+  }
+  return true;
+}
+
+/// Share of a pixel that a convex shape covers.
+double cover_of(std::span<const Vec2> corners, int x, int y) {
+  int hits = 0;
+  for (int j = 0; j < kSamples; ++j)
+    for (int i = 0; i < kSamples; ++i)
+      hits += inside(corners, Vec2(x + (i + 0.5) / kSamples, y + (j + 0.5) / kSamples));
+  return hits / static_cast<double>(kSamples * kSamples);
+}
+
+}  // namespace
+
+void Diagram::clip(const Vec2& least_px, const Vec2& largest_px) {
+  clip_least_px_ = least_px.cwiseMax(Vec2::Zero());
+  clip_largest_px_ = largest_px.cwiseMin(Vec2(image_.width_px, image_.height_px));
+}
+
+void Diagram::clear_clip() { clip({0, 0}, {image_.width_px, image_.height_px}); }
+
+void Diagram::rectangle(const Vec2& least_px, const Vec2& largest_px, Rgba8 colour) {
+  const std::array<Vec2, 4> corners = {least_px, Vec2(largest_px.x(), least_px.y()), largest_px,
+                                       Vec2(least_px.x(), largest_px.y())};
+  polygon(corners, colour);
+}
+
+void Diagram::polygon(std::span<const Vec2> corners_px, Rgba8 colour) {
+  Vec2 least = corners_px.front(), largest = least;
+  for (const Vec2& corner : corners_px) {
+    least = least.cwiseMin(corner);
+    largest = largest.cwiseMax(corner);
+  }
+  const Vec2 from = least.cwiseMax(clip_least_px_), to = largest.cwiseMin(clip_largest_px_);
+  for (int y = static_cast<int>(from.y()); y < to.y(); ++y)
+    for (int x = static_cast<int>(from.x()); x < to.x(); ++x)
+      blend(image_.at(x, y), colour, cover_of(corners_px, x, y));
+}
+
+void Diagram::line(const Vec2& from_px, const Vec2& to_px, double width_px, Rgba8 colour) {
+  if (from_px == to_px) return;
+  const Vec2 way = (to_px - from_px).normalized();
+  const Vec2 aside = 0.5 * width_px * Vec2(-way.y(), way.x());
+  const std::array<Vec2, 4> corners = {from_px + aside, to_px + aside, to_px - aside,
+                                       from_px - aside};
+  polygon(corners, colour);
+}
+
+void Diagram::disc(const Vec2& centre_px, double radius_px, Rgba8 colour) {
+  std::array<Vec2, 24> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double angle_rad = 2 * kPi * static_cast<double>(i) / corners.size();
+    corners[i] = centre_px + radius_px * Vec2(std::cos(angle_rad), std::sin(angle_rad));
+  }
+  polygon(corners, colour);
+}
+
+void Diagram::text(const Vec2& at_px, std::string_view words, const TextStyle& style, Align align) {
+  const int width_px = text_width_px(words, style);
+  const int left_px = align == Align::left ? 0 : align == Align::middle ? width_px / 2 : width_px;
+  draw_text(image_, static_cast<int>(at_px.x()) - left_px, static_cast<int>(at_px.y()), words,
+            style);
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,43 @@
+// A drawing on an image: smooth-edged shapes and words, in pixels from the upper left. For plans
+// and plots of the tools, not for frames.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/rigid3.h"
+#include "renderer/image.h"
+#include "renderer/text.h"
+
+namespace vindu::app {
+
+class Diagram {
+ public:
+  Diagram(SizePx size, Rgba8 paper) : image_(Image::filled(size.width, size.height, paper)) {
+    clear_clip();
+  }
+
+  /// What is drawn from now on stays within; words are not cut.
+  void clip(const Vec2& least_px, const Vec2& largest_px);
+  void clear_clip();
+
+  /// The colours' alpha is how much they cover.
+  void rectangle(const Vec2& least_px, const Vec2& largest_px, Rgba8 colour);
+  /// Convex, either way round.
+  void polygon(std::span<const Vec2> corners_px, Rgba8 colour);
+  void line(const Vec2& from_px, const Vec2& to_px, double width_px, Rgba8 colour);
+  void disc(const Vec2& centre_px, double radius_px, Rgba8 colour);
+
+  enum class Align { left, middle, right };
+  /// `at_px` is at the top of the line.
+  void text(const Vec2& at_px, std::string_view words, const TextStyle& style,
+            Align align = Align::left);
+
+  const Image& image() const { return image_; }
+
+ private:
+  Image image_;
+  Vec2 clip_least_px_, clip_largest_px_;
+};
+
+}  // namespace vindu::app
