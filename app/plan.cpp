@@ -92,7 +92,7 @@ Plan plan_of(const PlanOptions& options) {
     largest = {options.room[2], options.room[3]};
   }
   plan.rails = rails_of(least, largest, options);
-  plan.noise = helmet_dot_noise(plan.site.head, options.noise_px);
+  plan.noise = helmet_dot_noise(plan.site.heads.front(), options.noise_px);
   return plan;
 }
 
@@ -117,7 +117,7 @@ PlacementTask task_of(const Plan& plan, const PlanOptions& options) {
   const Vec2 size_m = area.largest_in_room - area.least_in_room;
   const auto [lowest_m, highest_m] = std::ranges::minmax(area.eye_heights_m);
   PlacementTask task;
-  task.head = plan.site.head;
+  task.head = plan.site.heads.front();
   task.poses = poses_in(area, size_m.maxCoeff() / kPlaces, kYaws, task.head);
   task.rails = plan.rails;
   for (int i = 0; i < kAimsAcross; ++i)
@@ -241,7 +241,7 @@ void draw(const Plan& plan, const PlanOptions& options, const Study& study) {
 int run_plan(const PlanOptions& options) {
   const Plan plan = plan_of(options);
   const auto of = [&](const std::vector<CameraConfig>& cameras) {
-    return study(cameras, plan.site.head, plan.noise, plan.area, 1e-3 * options.good_mm);
+    return study(cameras, plan.site.heads.front(), plan.noise, plan.area, 1e-3 * options.good_mm);
   };
   if (plan.site.cameras.empty() && options.propose == 0)
     throw Error(

@@ -16,17 +16,17 @@ int dots_of(const SensorState& state) {
 
 TEST(LedSight, GivesAPlanTheDotsThatAnEmulatedWiimoteReports) {
   const Site site = read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
-  const DotNoise noise = helmet_dot_noise(site.head);
+  const DotNoise noise = helmet_dot_noise(site.heads.front());
   const Onlooker planned(site.cameras[0]);
-  EmulatedSensor emulated(site.cameras[0], site.head, 0, 1);
+  EmulatedSensor emulated(site.cameras[0], site.heads.front(), 0, 1);
   Random random(3);
   int dots = 0;
   for (int i = 0; i < 2000; ++i) {
     const double x_m = random.uniform(-2, 2), z_m = random.uniform(-2, 4.5);
     const Rigid3 pose =
-        head_at({x_m, random.uniform(1.3, 2), z_m}, random.uniform(-kPi, kPi), site.head);
+        head_at({x_m, random.uniform(1.3, 2), z_m}, random.uniform(-kPi, kPi), site.heads.front());
     const int seen = dots_of(emulated.look(pose));
-    EXPECT_EQ(planned.look(site.head, pose, noise).dots, seen);
+    EXPECT_EQ(planned.look(site.heads.front(), pose, noise).dots, seen);
     dots += seen;
   }
   EXPECT_GT(dots, 300);
