@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/pose_lines.h"
 #include "app/replay_json.h"
 #include "app/replay_summary.h"
 #include "core/error.h"
@@ -29,6 +30,8 @@ struct ReplayCommand {
   bool json = false;
   bool text = false;
   bool skip_damage = false;
+  double predict_ms = 0;
+  std::vector<std::string> targets;
 
   DamagePolicy damage() const { return skip_damage ? DamagePolicy::skip : DamagePolicy::refuse; }
 };
@@ -133,17 +136,15 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
   std::vector<WiimoteReader> readers = open_readers(command, summary, site, pace);
   Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
   Lookahead ahead(command.file, command.damage());
-  std::optional<PoseSample> said;
+  PoseLines lines(site, targets_from(command.targets));
+  const Duration predicted = from_seconds(1e-3 * command.predict_ms);
   for (Ticks ticks(site.rate_hz, summary.first);; ticks.advance()) {
     const Time now = ticks.now() + pace.shift;
     for (WiimoteReader& reader : readers)
       while (const auto observation = reader.next(now)) tracker.absorb(*observation);
     pace.clock->sleep_until(now);
-    const std::optional<PoseSample> pose = tracker.track(now, now);
-    const bool news =
-        pose && (!said || pose->capture_time != said->capture_time || pose->level != said->level);
-    if (news) put_line(json_of(*pose, tracker.eye_in_wall(*pose), -pace.shift));
-    said = pose;
+    tracker.track(now, now + predicted);
+    for (const std::string& line : lines.news(tracker, -pace.shift)) put_line(line);
     if (ticks.now() >= summary.last) return 0;
     if (const auto next = ahead.silent_until(ticks.now())) ticks.advance_to(*next);
   }
@@ -200,6 +201,10 @@ void add_replay(CLI::App& parent, Action& chosen) {
   app->add_option("--wall", command->wall_file,
                   "Wall file to track with (default: the one in the recording)")
       ->type_name("FILE");
+  app->add_option("--predict-ms", command->predict_ms,
+                  "With --track: the eye so long after each tick (default: 0)")
+      ->check(CLI::Range(0.0, 1000.0));
+  add_targets(*app, command->targets);
   app->add_flag("--skip-damage", command->skip_damage, "Read around what is damaged");
   app->footer(
       "\nExamples:\n"

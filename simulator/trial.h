@@ -16,7 +16,7 @@ struct TrialOptions {
   std::vector<CameraConfig> cameras;
   HeadConfig head;
   std::function<Rigid3(Time)> room_from_head;
-  EmulatedWiimoteOptions wiimote;  ///< each camera derives its own seed from this one
+  EmulatedWiimoteOptions wiimote{};  ///< each camera derives its own seed from this one
   Duration warm_up = std::chrono::seconds(3);
   Duration length = std::chrono::seconds(20);  ///< that is measured, after the warm-up
   double rate_hz = 60;

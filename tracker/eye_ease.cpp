@@ -21,7 +21,8 @@ EyeEase::EyeEase(const Vec3& default_eye_in_wall, const EyeEaseOptions& options)
 
 Vec3 EyeEase::update(const std::optional<Vec3>& tracked_eye_in_wall, Time now) {
   const Phase phase = tracked_eye_in_wall ? Phase::tracked : Phase::lost;
-  if (!started_ || phase != phase_) {
+  const bool leap = tracked_eye_in_wall && leapt(*tracked_eye_in_wall, now);
+  if (!started_ || phase != phase_ || leap) {
     started_ = true;
     phase_ = phase;
     since_ = now;
@@ -29,6 +30,18 @@ Vec3 EyeEase::update(const std::optional<Vec3>& tracked_eye_in_wall, Time now) {
   }
   shown_in_wall_ = tracked_eye_in_wall ? follow(*tracked_eye_in_wall, now) : hold_or_return(now);
   return shown_in_wall_;
+}
+
+/// Whether the tracked eye is not where its motion over the last frames would have brought it.
+bool EyeEase::leapt(const Vec3& tracked_eye_in_wall, Time now) {
+  const double dt_s = seconds(now - tracked_at_);
+  const Vec3 step = tracked_eye_in_wall - tracked_in_wall_;
+  const bool known = started_ && phase_ == Phase::tracked && dt_s > 0;
+  const bool leap = known && (step - dt_s * velocity_m_s_).norm() > options_.leap_m;
+  if (!known || !leap) velocity_m_s_ = known ? Vec3(step / dt_s) : Vec3::Zero();
+  tracked_in_wall_ = tracked_eye_in_wall;
+  tracked_at_ = now;
+  return leap;
 }
 
 // The offset at the start melts; the time it takes grows with it, so that a short gap in the

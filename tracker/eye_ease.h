@@ -1,5 +1,6 @@
 // The eye that the wall shows when tracking comes and goes: held where it was, after two seconds
-// led to the default viewpoint, and led back to the tracked eye without a jump.
+// led to the default viewpoint, and led back to the tracked eye without a jump. Where the tracker
+// corrects itself, the shown eye follows as softly.
 #pragma once
 
 #include <optional>
@@ -12,7 +13,9 @@ namespace vindu {
 struct EyeEaseOptions {
   Duration held_for = std::chrono::seconds(2);
   Duration to_default_within = std::chrono::milliseconds(1500);
-  double catch_up_m_s = 1.5;  ///< how fast the shown eye closes on a tracked one, beside its motion
+  double catch_up_m_s = 1.0;  ///< how fast the shown eye closes on a tracked one, beside its motion
+  /// A step from frame to frame that differs by more from the one before was no motion of the eye.
+  double leap_m = 0.012;
 };
 
 /// Bound to one thread. Starts at the default eye.
@@ -27,6 +30,8 @@ class EyeEase {
  private:
   enum class Phase { lost, tracked };
 
+  bool leapt(const Vec3& tracked_eye_in_wall, Time now);
+
   Vec3 follow(const Vec3& tracked_eye_in_wall, Time now);
   Vec3 hold_or_return(Time now);
 
@@ -37,6 +42,9 @@ class EyeEase {
   Time since_{};  // when the phase began
   Vec3 start_;    // lost: the eye that is held; tracked: shown minus tracked at its start
   bool started_ = false;
+  Vec3 tracked_in_wall_ = Vec3::Zero();  // the frame before
+  Vec3 velocity_m_s_ = Vec3::Zero();     // from the frame before that
+  Time tracked_at_{};
 };
 
 }  // namespace vindu

@@ -30,6 +30,8 @@ struct CameraHealth {
   bool moved = false;        ///< its dots do not fit what the others see
   bool device_time = false;  ///< its own clock is known; else arrivals are used
   std::size_t masks = 0;     ///< reflections that are ignored
+
+  bool operator==(const CameraHealth&) const = default;
 };
 
 /// Bound to one thread at a time.

@@ -1,0 +1,96 @@
+// Half an hour with everything that goes wrong in a room: the walker leaves and returns, ducks,
+// turns away, lamps and false dots stand in the picture, the radio is busy. What the wall shows
+// must stay sane throughout.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "simulator/person.h"
+#include "simulator/trial.h"
+#include "tracker/eye_ease.h"
+
+namespace vindu {
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+
+/// 0 most of the time, 1 for the middle of `length_s` in each `every_s`, smooth between.
+double now_and_then(double t_s, double every_s, double length_s, double at_s) {
+  const double into_s = std::fmod(t_s + every_s - at_s, every_s);
+  if (into_s > length_s) return 0;
+  const double sine = std::sin(kPi * into_s / length_s);
+  return sine * sine;
+}
+
+TrialOptions room_with_a_restless_walker(std::uint64_t seed) {
+  const Site site = read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
+  PersonOptions walk{.seed = seed};
+  walk.least_eye_in_room.x() = -1.6;  // farther than both cameras see
+  walk.largest_eye_in_room.x() = 1.6;
+  walk.largest_eye_in_room.z() = 2.6;
+  const Person person(site.heads.front(), site.wall.room_from_wall, walk);
+  TrialOptions options{.cameras = site.cameras, .head = site.heads.front(), .room_from_head = {}};
+  options.room_from_head = [person](Time time) {
+    const double t_s = seconds(time.time_since_epoch());
+    Rigid3 head = person.room_from_head(time);
+    const double turn_rad = radians(150) * now_and_then(t_s, 41, 6, 11);
+    head.rotation = Quat(Eigen::AngleAxisd(turn_rad, Vec3::UnitY())) * head.rotation;
+    head.translation.y() -= 0.6 * now_and_then(t_s, 23, 3, 5);
+    return head;
+  };
+  options.wiimote.seed = seed;
+  options.wiimote.link = two_on_one_adapter();
+  options.wiimote.false_dots = 0.02;
+  options.wiimote.glints = {{{-0.9, 2.2, 0.3}, 1.5}, {{0.7, 0.9, 0.2}, 1.5}};
+  options.warm_up = std::chrono::seconds(5);
+  options.length = std::chrono::minutes(30);
+  return options;
+}
+
+/// The longest run of frames for which something holds, in seconds.
+class LongestRun {
+ public:
+  void add(bool holds) { longest_ = std::max(longest_, run_ = holds ? run_ + 1 : 0); }
+  double length_s() const { return kFrame_s * longest_; }
+
+ private:
+  int run_ = 0, longest_ = 0;
+};
+
+TEST(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
+  const TrialOptions options = room_with_a_restless_walker(3);
+  const auto frames = run_trial(options, {TrackingConfig{}})[0];
+  EyeEase ease(Vec3(0, 1.65, 2));
+  LongestRun wrong;
+  double largest_jump_m = 0;
+  int tracked = 0;
+  Vec3 before = Vec3::Zero(), truth_before = Vec3::Zero();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const TrialFrame& frame = frames[i];
+    const bool known = frame.level < TrackingLevel::held;
+    tracked += known;
+    ASSERT_TRUE(frame.eye_in_room.allFinite());
+    wrong.add(known && (frame.eye_error_m > 0.10 || frame.turn_error_rad > radians(30)));
+    const Vec3 eye =
+        ease.update(known ? std::optional(frame.eye_in_room) : std::nullopt, frame.photon);
+    const Vec3 truth = options.room_from_head(frame.photon) * options.head.eye_in_head;
+    if (i > 0)
+      largest_jump_m =
+          std::max(largest_jump_m, (eye - before).norm() - (truth - truth_before).norm());
+    before = eye;
+    truth_before = truth;
+  }
+  const TrialErrors errors = errors_of(frames);
+  std::printf(
+      "  found %.1f %%, rms %.1f mm, p95 %.1f mm, max %.0f mm; wrong for %.2f s at most, "
+      "largest jump %.1f mm\n",
+      100 * errors.found, 1e3 * errors.eye_rms_m, 1e3 * errors.eye_p95_m, 1e3 * errors.eye_max_m,
+      wrong.length_s(), 1e3 * largest_jump_m);
+  EXPECT_LE(wrong.length_s(), 0.1);
+  EXPECT_LT(largest_jump_m, 0.020);
+  EXPECT_GT(tracked, static_cast<int>(frames.size() / 2));
+}
+
+}  // namespace
+}  // namespace vindu
