@@ -10,6 +10,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "simulator/emulated_room.h"
+#include "simulator/trial.h"
 #include "tracker/tracker.h"
 #include "tracker/wiimote/emulator.h"
 #include "tracker/wiimote/report.h"
@@ -135,6 +136,82 @@ void thesis_poll_over_opencv(benchmark::State& state) {
   state.counters["ratio"] = seconds(ours) / seconds(theirs);
 }
 BENCHMARK(thesis_poll_over_opencv)->ArgName("distorted")->Arg(0)->Arg(1);
+
+/// Four LEDs that sway 3 m before cameras behind them, on the radio link of thesis Table 5.1.
+TrialOptions swaying_head(int cameras) {
+  TrialOptions options;
+  for (int i = 0; i < cameras; ++i) {
+    CameraConfig camera;
+    camera.lag_ms = 6;
+    const double x = -1 + 2.0 * i / (cameras - 1);
+    camera.room_from_camera = look_at({x, 2.3, 5}, {0, 1.65, 2});
+    options.cameras.push_back(camera);
+  }
+  options.head.leds_in_head = {
+      {-0.10, 0, -0.09}, {0, 0.06, 0}, {0.10, -0.02, -0.09}, {0.03, -0.06, -0.02}};
+  options.room_from_head = swaying({0, 1.65, 2}, 0.57, radians(75));
+  options.wiimote.link = two_on_one_adapter();
+  options.length = std::chrono::seconds(20);
+  return options;
+}
+
+struct Costs {
+  std::vector<double> us_per_report;  // of each tick
+  double total_s = 0;
+  std::size_t reports = 0;
+  Vec3 eye_in_room = Vec3::Zero();  // in the end
+};
+
+/// Frames at 60 Hz: what each costs, over the reports that came since the last one.
+Costs track_all(Tracker& tracker, const std::vector<Observation>& seen, const Vec3& eye_in_head) {
+  Costs costs;
+  std::size_t next = 0;
+  for (int tick = 1; next < seen.size(); ++tick) {
+    const Time now{from_seconds(tick / 60.0)};
+    const std::size_t first = next;
+    const auto start = Stopwatch::now();
+    for (; next < seen.size() && seen[next].arrival <= now; ++next) tracker.absorb(seen[next]);
+    const auto pose = tracker.track(now, now + std::chrono::milliseconds(30));
+    const double took_s = seconds(Stopwatch::now() - start);
+    if (pose) costs.eye_in_room = pose->room_from_head * eye_in_head;
+    costs.total_s += took_s;
+    if (next > first)
+      costs.us_per_report.push_back(1e6 * took_s / static_cast<double>(next - first));
+  }
+  costs.reports = seen.size();
+  return costs;
+}
+
+/// Rollback, the search for the head at the start and its checks included. The thesis' method on
+/// the same reports beside it: it looks at two cameras' newest reports alone, and finds nobody
+/// among four dots.
+void joint_method_per_report(benchmark::State& state) {
+  const TrialOptions options = swaying_head(static_cast<int>(state.range(0)));
+  const auto seen = observations_of(options);
+  HeadConfig lmr;
+  Costs ours, theirs;
+  for (auto _ : state) {
+    Tracker tracker(options.cameras, std::vector{options.head}, {});
+    ours = track_all(tracker, seen, options.head.eye_in_head);
+    state.PauseTiming();
+    Tracker thesis(options.cameras, std::vector{lmr}, {}, {.method = "thesis"});
+    theirs = track_all(thesis, seen, options.head.eye_in_head);
+    state.ResumeTiming();
+  }
+  std::ranges::sort(ours.us_per_report);
+  const auto count = static_cast<double>(ours.us_per_report.size());
+  const double mean_us = 1e6 * ours.total_s / static_cast<double>(ours.reports);
+  state.counters["us_mean"] = mean_us;
+  state.counters["us_p99"] = ours.us_per_report[static_cast<std::size_t>(0.99 * (count - 1))];
+  state.counters["thesis_us"] = 1e6 * theirs.total_s / static_cast<double>(theirs.reports);
+  state.counters["cores_at_200Hz"] = 1e-6 * mean_us * 200 * static_cast<double>(state.range(0));
+  const Vec3 eye_mm = 1e3 * ours.eye_in_room;
+  std::array<char, 64> label{};
+  std::snprintf(label.data(), label.size(), "eye at (%.1f, %.1f, %.1f) mm", eye_mm.x(), eye_mm.y(),
+                eye_mm.z());
+  state.SetLabel(label.data());
+}
+BENCHMARK(joint_method_per_report)->ArgName("cameras")->Arg(2)->Arg(4)->Arg(16)->Iterations(1);
 
 }  // namespace
 }  // namespace vindu

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracker/joint/rotation.h"
 #include "tracker/wiimote/emulator_bus.h"
 #include "tracker/wiimote/reader.h"
 
@@ -44,6 +45,12 @@ class Cameras {
   std::vector<WiimoteReader> readers_;
 };
 
+double eye_sigma_m(const PoseSample& pose, const Vec3& eye_in_head) {
+  Eigen::Matrix<double, 3, 6> d_eye_d_pose;
+  d_eye_d_pose << Mat3::Identity(), -cross_matrix(pose.room_from_head.rotation * eye_in_head);
+  return std::sqrt((d_eye_d_pose * pose.covariance * d_eye_d_pose.transpose()).trace());
+}
+
 TrialFrame judged(const std::optional<PoseSample>& pose, const TrialOptions& options, Time photon) {
   TrialFrame frame{.photon = photon};
   if (!pose) return frame;
@@ -51,6 +58,7 @@ TrialFrame judged(const std::optional<PoseSample>& pose, const TrialOptions& opt
   frame.level = pose->level;
   frame.eye_in_room = pose->room_from_head * options.head.eye_in_head;
   frame.eye_error_m = (frame.eye_in_room - truth * options.head.eye_in_head).norm();
+  frame.eye_sigma_m = eye_sigma_m(*pose, options.head.eye_in_head);
   frame.turn_error_rad = pose->room_from_head.rotation.angularDistance(truth.rotation);
   return frame;
 }
@@ -101,6 +109,18 @@ std::vector<std::vector<TrialFrame>> run_trial(const TrialOptions& options,
     }
   }
   return frames;
+}
+
+std::vector<Observation> observations_of(const TrialOptions& options) {
+  ManualClock clock;
+  Cameras cameras(options, clock);
+  std::vector<Observation> all;
+  const Time end = Time{} + options.warm_up + options.length;
+  while (clock.now() < end) {
+    clock.sleep_until(clock.now() + std::chrono::milliseconds(1));
+    cameras.drain(clock.now(), [&](const Observation& seen) { all.push_back(seen); });
+  }
+  return all;
 }
 
 std::function<Rigid3(Time)> swaying(const Vec3& middle_in_room, double peak_m_s,

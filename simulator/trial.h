@@ -28,6 +28,7 @@ struct TrialFrame {
   Time photon{};
   TrackingLevel level = TrackingLevel::lost;
   double eye_error_m = 0;  ///< where the level is above held
+  double eye_sigma_m = 0;  ///< what the pose's covariance says of the eye: root of the trace
   double turn_error_rad = 0;
   Vec3 eye_in_room = Vec3::Zero();
 };
@@ -42,6 +43,9 @@ TrialErrors errors_of(const std::vector<TrialFrame>& frames);
 /// All methods see the same reports; their frames, in the order of `methods`.
 std::vector<std::vector<TrialFrame>> run_trial(const TrialOptions& options,
                                                const std::vector<TrackingConfig>& methods);
+
+/// What the driver hands to a tracker in such a trial, in the order of arrival.
+std::vector<Observation> observations_of(const TrialOptions& options);
 
 /// To and fro in front of `middle_in_room` on sines of unlike rates, facing the wall; peaks of
 /// speed and turning are those given.

@@ -36,7 +36,7 @@ class Contest {
       if (!fit) return;
       pose = fit->room_from_head;
     }
-    judge(*fit, std::move(labels));
+    if (sightings_of(labels).size() >= options_.least_dots) judge(*fit, std::move(labels));
   }
 
   std::optional<FoundHead> winner() {

@@ -25,6 +25,7 @@ struct AcquisitionOptions {
   double missing_led_cost = 3;  ///< of an LED that a camera should see and does not
   double least_margin = 12;     ///< by which the best beats a rival that is elsewhere
   double largest_rms_px = 2.5;
+  std::size_t least_dots = 3;
   TrackingLevel least_level = TrackingLevel::hybrid;  ///< that the dots alone must reach
   std::size_t candidates_kept = 16;                   ///< of each pair of cameras, to be fitted
 };

@@ -18,21 +18,44 @@ struct Column {
   ExpectedDot expected;
 };
 
+bool vague(const HeadState& state, const AssociationOptions& options) {
+  const PoseSample sample = sample_of(state);
+  const auto variances = sample.covariance.diagonal();
+  return variances.head<3>().sum() > options.lost_at_m * options.lost_at_m ||
+         variances.tail<3>().sum() > options.lost_at_rad * options.lost_at_rad;
+}
+
+bool seen_by_two(const HeadTrack& head, Time now, const AssociationOptions& options) {
+  return std::ranges::count_if(head.seen_by,
+                               [&](Time seen) { return now - seen < options.coasts_after; }) >= 2;
+}
+
+bool well_seen(const HeadTrack& head, Time now, const AssociationOptions& options) {
+  const auto leds = std::ranges::count_if(
+      head.led_seen, [&](Time seen) { return now - seen < options.coasts_after; });
+  return leds >= 3 && seen_by_two(head, now, options);
+}
+
 void move_on(HeadTrack& head, Time to, const AssociationOptions& options) {
   if (!head.state) return;
-  if (to - head.seen > options.lost_after) return head.state.reset();
   MotionNoise noise = noise_of_motion(*head.state);
+  if (!seen_by_two(head, to, options))
+    noise.move_m2_s5 = std::max(noise.move_m2_s5, options.least_alone_m2_s5);
   if (!options.turns) noise.turn_rad2_s5 = 0;
-  const bool coasts = to - head.seen > options.coasts_after;
+  const auto lately = [&](Time seen) { return to - seen < options.coasts_after; };
+  const bool moves = seen_by_two(head, to, options);
+  const bool turns = std::ranges::count_if(head.led_seen, lately) >= 2;
   propagate(*head.state, std::max(to, head.state->time), noise,
-            {.damping = coasts ? options.damping : Duration::zero()});
+            {.move_damping = moves ? Duration::zero() : options.damping,
+             .turn_damping = turns ? Duration::zero() : options.damping});
+  if (to - head.seen > options.lost_after || vague(*head.state, options)) head.state.reset();
 }
 
 /// Pixels, and what the time of capture leaves open for a dot that moves.
-Eigen::Matrix2d noise_of(const TimedDots& seen, const ExpectedDot& expected) {
+Eigen::Matrix2d noise_of(const TimedDots& seen, const ExpectedDot& expected, double factor = 1) {
+  const double sigma_px = factor * seen.dot_sigma_px;
   const Vec2 by_time_px = seen.time_sigma_s * expected.raw_px_s;
-  return seen.dot_sigma_px * seen.dot_sigma_px * Eigen::Matrix2d::Identity() +
-         by_time_px * by_time_px.transpose();
+  return sigma_px * sigma_px * Eigen::Matrix2d::Identity() + by_time_px * by_time_px.transpose();
 }
 
 double distance2(const Eigen::Matrix2d& covariance_px2, const Vec2& residual_px) {
@@ -90,16 +113,23 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const CostMatrix& cost
   return pairs;
 }
 
+void note(HeadTrack& head, const TimedDots& seen, int led) {
+  for (Time* time : {&head.seen, &head.seen_by[static_cast<std::size_t>(seen.camera)],
+                     &head.led_seen[static_cast<std::size_t>(led)]})
+    *time = std::max(*time, seen.captured);
+}
+
 /// Each correction sharpens what is expected of the next dot, which must still fit.
 std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& camera,
                                     std::span<const std::vector<Vec3>> leds_of_heads,
-                                    std::span<HeadTrack> heads, double gate) {
+                                    std::span<HeadTrack> heads, const AssociationOptions& options) {
   const std::vector<Column> columns = columns_of(camera, leds_of_heads, heads);
   const auto in_sigmas = [&](const Column& column, const Vec2& residual_px) {
+    if (residual_px.norm() > options.farthest_px) return kFar;
     return distance2(column.expected.covariance_px2 + noise_of(seen, column.expected), residual_px);
   };
   std::vector<AcceptedDot> accepted;
-  for (const auto& [i, c] : pairs_of(costs_of(seen, columns, in_sigmas), gate)) {
+  for (const auto& [i, c] : pairs_of(costs_of(seen, columns, in_sigmas), options.gate)) {
     const auto& [at_head, led, before] = columns[c];
     HeadTrack& head = heads[static_cast<std::size_t>(at_head)];
     const auto expected =
@@ -109,9 +139,11 @@ std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& ca
     const Eigen::Matrix2d noise = noise_of(seen, *expected);
     const Vec2 residual = position(seen.dots[i]) - expected->raw_px;
     const double square = distance2(expected->covariance_px2 + noise, residual);
-    if (square > gate) continue;
-    correct(*head.state, *expected, position(seen.dots[i]), seen.distrust * seen.distrust * noise);
-    head.seen = std::max(head.seen, seen.captured);
+    if (square > options.gate) continue;
+    const double factor = well_seen(head, seen.captured, options) ? 1 : options.weak;
+    correct(*head.state, *expected, position(seen.dots[i]),
+            noise_of(seen, *expected, factor * seen.distrust));
+    note(head, seen, led);
     accepted.push_back({i, at_head, led, residual, expected->raw_px_s, square});
   }
   return accepted;
@@ -164,11 +196,10 @@ Association associate(const TimedDots& seen, const CameraModel& camera,
   for (const Column& column : columns_of(camera, leds_of_heads, heads))
     if (in_picture(column.expected.raw_px)) ++result.expected;
   if (result.expected == 0) return result;
-  result.accepted = correct_by(seen, camera, leds_of_heads, heads, options.gate);
+  result.accepted = correct_by(seen, camera, leds_of_heads, heads, options);
   result.widened = options.may_widen && seen.dots.size() >= 2 &&
                    widen_displaced(seen, camera, leds_of_heads, heads, result.accepted);
-  if (result.widened)
-    result.accepted = correct_by(seen, camera, leds_of_heads, heads, options.gate);
+  if (result.widened) result.accepted = correct_by(seen, camera, leds_of_heads, heads, options);
   return result;
 }
 

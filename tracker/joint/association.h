@@ -24,18 +24,33 @@ struct TimedDots {
   std::array<bool, kMaxDots> masked{};  ///< a known reflection, unless it is where an LED must be
 };
 
+constexpr std::size_t kMaxCameras = 16;
+constexpr std::size_t kMaxLeds = 16;
+
 /// A head, and whether it is tracked now.
 struct HeadTrack {
   std::optional<HeadState> state;
   Time seen{};  ///< when the last dot of it was captured
+  std::array<Time, kMaxCameras> seen_by{};
+  std::array<Time, kMaxLeds> led_seen{};
 };
 
 struct AssociationOptions {
-  double gate = 13.8;  ///< squared Mahalanobis distance: 99.9 % of two degrees of freedom
-  /// Unseen for longer, a head slows down with this time constant; then it is lost.
-  Duration coasts_after = std::chrono::milliseconds(60);
-  Duration damping = std::chrono::milliseconds(100);
+  double gate = 13.8;       ///< squared Mahalanobis distance: 99.9 % of two degrees of freedom
+  double farthest_px = 20;  ///< from where it is expected, however uncertain that is
+  /// Of what nobody has seen for so long, the motion dies out with this time constant: of all, when
+  /// less than two cameras saw the head; of its turning, when less than two LEDs were seen.
+  Duration coasts_after = std::chrono::milliseconds(80);
+  Duration damping = std::chrono::milliseconds(150);
+  /// Unseen for longer, or known no better than so, a head is lost.
   Duration lost_after = std::chrono::milliseconds(250);
+  double lost_at_m = 0.20;
+  /// Factor on the sigma of dots while one camera alone sees a head, or two LEDs alone are seen:
+  /// what rounding and the LEDs' places leave wrong does not average out, and more hangs on it.
+  double weak = 3;
+  /// A head may walk along the ray of the only camera that sees it.
+  double least_alone_m2_s5 = 3;
+  double lost_at_rad = radians(35);
   bool turns = true;  ///< false: the rotation is given, not estimated
   bool may_widen =
       true;  ///< dots that stand aside all alike make the head doubtful, not the camera

@@ -91,21 +91,22 @@ void propagate(HeadState& state, Time to, const MotionNoise& noise, const Motion
   assert(to >= state.time);
   const double dt_s = seconds(to - state.time);
   if (dt_s == 0) return;
-  const Course course = course_of(dt_s, options.damping);
-  const Vec3 turn = course.way(state.turn);
+  const Course course = course_of(dt_s, options.move_damping);
+  const Course turning = course_of(dt_s, options.turn_damping);
+  const Vec3 turn = turning.way(state.turn);
   const Mat3 turned = rotation_of(turn).toRotationMatrix();
   Mat18& covariance = state.covariance;
   for (int side = 0; side < 2; ++side) {  // F P, then F (F P)^T
     covariance.middleRows<3>(kRotation) = (turned * covariance.middleRows<3>(kRotation)).eval();
     carry(covariance.topRows<9>(), course);
-    carry(covariance.bottomRows<9>(), course);
+    carry(covariance.bottomRows<9>(), turning);
     covariance.transposeInPlace();
   }
   add_noise(covariance, kPosition, noise.move_m2_s5, dt_s);
   add_noise(covariance, kRotation, noise.turn_rad2_s5, dt_s);
   state.room_from_head = moved(state.room_from_head, course.way(state.move), turn);
   state.move = course.after(state.move);
-  state.turn = course.after(state.turn);
+  state.turn = turning.after(state.turn);
   state.time = to;
 }
 

@@ -39,7 +39,8 @@ struct MotionNoise {
 MotionNoise noise_of_motion(const HeadState& state);
 
 struct MotionOptions {
-  Duration damping = Duration::zero();  ///< velocities die out with this time constant; 0: never
+  Duration move_damping = Duration::zero();  ///< velocity dies out with this time constant; 0: not
+  Duration turn_damping = Duration::zero();
 };
 
 /// To a later time, with accelerations that die out (Singer 1970). Earlier times are an error of

@@ -21,6 +21,13 @@ constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a
 
 Vec2 position(const Dot& dot) { return {dot.x_px, dot.y_px}; }
 
+/// The fewer dots agree, the more often they must.
+int looks_needed(const FoundHead& found) {
+  std::ptrdiff_t dots = 0;
+  for (const auto& leds : found.led_of_dot) dots += std::ssize(leds) - std::ranges::count(leds, -1);
+  return dots >= 6 ? 2 : 4;
+}
+
 bool same_pose(const Rigid3& a, const Rigid3& b) {
   return (a.translation - b.translation).norm() < 0.06 &&
          a.rotation.angularDistance(b.rotation) < radians(20);
@@ -85,7 +92,10 @@ void JointMethod::replay() {
         associate(entry.seen, cameras_[camera], leds_of_heads_, entry.after, options);
     for (const auto& [head, state] : entry.births) {
       entry.after[head].state = state;
-      entry.after[head].seen = entry.seen.captured;
+      HeadTrack& born = entry.after[head];
+      born.seen = entry.seen.captured;
+      born.seen_by.fill(born.seen);
+      born.led_seen.fill(born.seen);
     }
     judge(entry);
   }
@@ -193,15 +203,18 @@ void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t ent
 
 AcquisitionOptions JointMethod::acquisition_options() const {
   AcquisitionOptions options;
+  // Three dots always fit some pose; where there is but one camera, that has to do.
+  options.least_dots = cameras_.size() == 1 ? 3 : 4;
   if (!options_.position_only) return options;
+  options.least_dots = 2;
   options.facing_sigma_rad.setConstant(1e-3);
   options.least_level = TrackingLevel::position;
   options.least_margin = 0;
   return options;
 }
 
-// Two looks in a row that find a head in one place are right: false dots do not repeat themselves.
-// One that is tracked is looked for as well.
+// Looks in a row that find a head in one place are right: false dots do not repeat themselves. One
+// that is tracked is looked for as well.
 void JointMethod::look_for(std::size_t head, Time now) {
   if (entries_.empty()) return;
   Search& search = searches_[head];
@@ -223,7 +236,8 @@ void JointMethod::look_for(std::size_t head, Time now) {
   if (tracked && same_pose(pose, tracked->room_from_head)) return search.rumour.reset();
   const bool again = search.rumour && same_pose(pose, *search.rumour);
   search.rumour = pose;
-  if (again) bear(head, *found, newest);
+  search.confirmed = again ? search.confirmed + 1 : 1;
+  if (search.confirmed >= looks_needed(*found)) bear(head, *found, newest);
 }
 
 void JointMethod::update(Time now) {

@@ -95,6 +95,7 @@ class JointMethod {
   struct Search {
     Time looked{};
     std::optional<Rigid3> rumour{};  // where the last look found it, unless it is tracked there
+    int confirmed = 0;               // looks in a row that found it there
     HeadTrack last{};                // that was tracked
   };
   std::vector<Search> searches_;

@@ -37,7 +37,7 @@ TEST(HeadFilter, comes_to_rest_when_damped) {
   HeadState state = known_at({}, Time{});
   state.move.velocity = {1, 0, 0};
   for (int i = 1; i <= 100; ++i)
-    propagate(state, Time{} + milliseconds(10 * i), {}, {.damping = milliseconds(100)});
+    propagate(state, Time{} + milliseconds(10 * i), {}, {.move_damping = milliseconds(100)});
   EXPECT_NEAR(state.room_from_head.translation.x(), 0.1, 1e-4);  // velocity times time constant
   EXPECT_LT(state.move.velocity.norm(), 1e-3);
 }
