@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 
+#include "app/calibrate.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "core/error.h"
@@ -23,6 +24,18 @@ std::string shown(const Vec3& point) {
   return fmt::format("({:7.3f} {:7.3f} {:7.3f})", point.x(), point.y(), point.z());
 }
 
+/// ", calibrated by wand on 2010-06-01 12:00 UTC: rms 0.50 px, place to 5 mm"
+std::string shown(const std::optional<CalibrationNote>& note) {
+  if (!note) return "";
+  std::string text = fmt::format(", calibrated by {} on {}: rms {:.2f} px", note->method,
+                                 note->date, note->rms_px);
+  if (note->focal_sigma_px > 0)
+    text += fmt::format(", focal length to {:.1f} px", note->focal_sigma_px);
+  if (note->position_sigma_mm > 0)
+    text += fmt::format(", place to {:.1f} mm", note->position_sigma_mm);
+  return text;
+}
+
 void print_wall(const Site& site) {
   const Wall& wall = site.wall;
   std::printf("%zu tiles, %d x %d, %.3f x %.3f m; corners in wall, metres\n", wall.tiles.size(),
@@ -36,9 +49,14 @@ void print_wall(const Site& site) {
                shown(corners.lower_right_in_wall), shown(corners.upper_left_in_wall), mount);
   }
   for (const CameraConfig& camera : site.cameras)
-    fmt::print("  camera {:<10} {:<9} at {} in room, focal length {:.0f} px\n", camera.name,
+    fmt::print("  camera {:<10} {:<9} at {} in room, focal length {:.0f} px{}\n", camera.name,
                name_of(camera.source), shown(camera.room_from_camera.translation),
-               camera.intrinsics.fx_px);
+               camera.intrinsics.fx_px, shown(camera.calibration));
+  for (const HeadConfig& head : site.heads) {
+    fmt::print("  head {:<12} {} LEDs, eye at {} in head{}\n", head.name, head.leds_in_head.size(),
+               shown(head.eye_in_head), shown(head.calibration));
+    if (const std::string remark = layout_remark(head); !remark.empty()) fmt::print("  {}", remark);
+  }
 }
 
 /// Drawing units a metre; programs that set small letters badly get large ones.

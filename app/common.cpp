@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 
 #include "core/error.h"
 #include "core/log.h"
@@ -70,6 +71,13 @@ CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value) {
 
 Site load_site(const std::string& wall_file) {
   return read_site(wall_file.empty() ? find_asset("walls/tromso.toml") : wall_file);
+}
+
+Site load_uncalibrated_site(const std::string& wall_file) {
+  const std::string file = wall_file.empty() ? find_asset("walls/tromso.toml") : wall_file;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw Error({"cannot be read", file, "give the path of a wall file"});
+  return parse_site({std::istreambuf_iterator<char>(stream), {}}, file);
 }
 
 std::string json_text(const std::string& text) {

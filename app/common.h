@@ -22,6 +22,8 @@ CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value);
 
 /// The wall file, or the Tromsø wall that comes with Vindu when the name is empty.
 Site load_site(const std::string& wall_file);
+/// The same without its calibration.
+Site load_uncalibrated_site(const std::string& wall_file);
 
 /// As a JSON string, quotes included.
 std::string json_text(const std::string& text);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 
 #include "app/cameras.h"
@@ -14,6 +13,7 @@
 #include "app/common.h"
 #include "app/emulation.h"
 #include "app/stop_signals.h"
+#include "core/calibration.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/resources.h"
@@ -31,18 +31,13 @@ struct RecordCommand {
   EmulationOptions emulation;
 };
 
-std::string text_of_file(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 RecordingInfo describe(const std::string& wall_file, const Site& site, const Clock& clock) {
   RecordingInfo info{
       .program = "vindu " VINDU_VERSION,
       .started_utc_ns = Duration(std::chrono::system_clock::now().time_since_epoch()).count(),
       .started = clock.now(),
       .wall_file = wall_file,
-      .wall_text = text_of_file(wall_file),
+      .wall_text = site_text(wall_file),
       .devices = {}};
   for (const CameraConfig& camera : site.cameras)
     info.devices.push_back({static_cast<int>(info.devices.size()), camera.name});

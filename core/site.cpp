@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/internal/calibration_reader.h"
 #include "core/internal/toml_table.h"
 
 namespace vindu {
@@ -126,6 +127,7 @@ HeadConfig read_head(TomlTable& table) {
   head.name = table.text("name").value_or(head.name);
   head.leds_in_head = table.vec3s("leds_m", 1, 16, {-10, 10}).value_or(head.leds_in_head);
   head.eye_in_head = table.vec3("eye_m", {-1, 1}).value_or(head.eye_in_head);
+  head.use_calibration = table.boolean("calibration").value_or(true);
   table.finish();
   return head;
 }
@@ -283,6 +285,7 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
     camera.lag_ms = table.number("lag_ms", {-1000, 1000}).value_or(camera.lag_ms);
     camera.intrinsics = read_intrinsics(table, intrinsics_before_calibration(camera));
     camera.room_from_camera = read_camera_pose(table);
+    camera.use_calibration = table.boolean("calibration").value_or(true);
     table.finish();
     cameras.push_back(std::move(camera));
   }
@@ -298,6 +301,7 @@ Site site_of(const toml::table& parsed, const std::string& file) {
   read_tracking(root, site);
   read_scene(root, site.scene);
   read_cameras(root, site.cameras);
+  internal::apply_calibrations(root, site);
   root.has("tile");  // read with the wall, known even where that failed
   root.finish();
   problems.throw_if_any();
@@ -310,7 +314,11 @@ Site site_of(const toml::table& parsed, const std::string& file) {
 
 }  // namespace
 
-Site read_site(const std::string& file) { return site_of(internal::parse_toml_file(file), file); }
+Site read_site(const std::string& file) {
+  Site site = site_of(internal::parse_toml_file(file), file);
+  internal::apply_calibration_files(file, site);
+  return site;
+}
 
 Site parse_site(const std::string& text, const std::string& file) {
   return site_of(internal::parse_toml_text(text, file), file);

@@ -23,6 +23,19 @@ struct Intrinsics {
   bool operator==(const Intrinsics&) const = default;
 };
 
+/// Where calibrated values come from and how good they are; zero sigma: not known.
+struct CalibrationNote {
+  std::string method;     ///< "wand", "intrinsics", "extrinsics", "wall", "head"
+  std::string date;       ///< "2010-06-01 12:00 UTC"
+  std::string recording;  ///< that it rests on; empty: live
+  double rms_px = 0;
+  double focal_sigma_px = 0;
+  double position_sigma_mm = 0;  ///< of all three coordinates together
+  double rotation_sigma_deg = 0;
+
+  bool operator==(const CalibrationNote&) const = default;
+};
+
 enum class CameraSource { emulated, wiimote, video };
 
 /// Which spots of an infrared picture are dots.
@@ -55,6 +68,8 @@ struct CameraConfig {
   double lag_ms = 0;  ///< from the light to the report's arrival, at the least
   Intrinsics intrinsics;
   Rigid3 room_from_camera;  ///< camera: +x right, +y down, +z along the optical axis
+  bool use_calibration = true;
+  std::optional<CalibrationNote> calibration{};  ///< of what was laid over the wall file's values
 };
 
 /// The tracked head: its LEDs and the point between both eyes, in head (+x right, +y up, -z
@@ -63,6 +78,8 @@ struct HeadConfig {
   std::string name = "head";
   std::vector<Vec3> leds_in_head = {{-0.09, 0, -0.09}, {0, 0, 0}, {0.09, 0, -0.09}};
   Vec3 eye_in_head = {0, -0.10, -0.19};
+  bool use_calibration = true;
+  std::optional<CalibrationNote> calibration{};
 };
 
 struct TrackingConfig {
@@ -97,7 +114,8 @@ struct Site {
   SceneConfig scene;
 };
 
-/// Throws Error with one line for each thing that is wrong.
+/// With its calibration (core/calibration.h). Throws Error with one line for each thing that is
+/// wrong.
 Site read_site(const std::string& file);
 /// The same of a wall file's text, as a recording holds it; `file` is its name in messages, and
 /// what its paths are relative to.

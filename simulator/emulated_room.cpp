@@ -38,14 +38,17 @@ EmulatedRoom::EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOpt
     : person_(
           std::make_unique<Person>(site.heads.front(), site.wall.room_from_wall, options.person)),
       bus_(std::make_unique<EmulatedHidBus>(clock)) {
+  const LedBody body =
+      options.body.value_or(helmet_body(site.heads.front(), [person = person_.get()](Time time) {
+        return person->room_from_head(time);
+      }));
   for (std::size_t i = 0; i < site.cameras.size(); ++i) {
     const std::uint64_t seed = options.wiimote.seed + 0x9e3779b97f4a7c15ULL * (i + 1);
-    EmulatedSensor sensor(site.cameras[i], site.heads.front(), options.wiimote.noise_px, seed,
+    EmulatedSensor sensor(site.cameras[i], body, options.wiimote.noise_px, seed,
                           options.wiimote.glints, options.wiimote.false_dots);
+    const Duration late = i < options.late.size() ? options.late[i] : Duration{};
     bus_->add(device_options(options.wiimote, seed, site.cameras[i]),
-              [sensor, person = person_.get()](Time time) mutable {
-                return sensor.view(person->room_from_head(time));
-              });
+              [sensor, late](Time time) mutable { return sensor.view(time - late); });
   }
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "core/clock.h"
 #include "core/site.h"
@@ -14,6 +16,10 @@ namespace vindu {
 
 struct EmulatedRoomOptions {
   PersonOptions person;
+  std::optional<LedBody> body;  ///< seen in place of the person's helmet
+  /// By camera: how much later than its picture it shows something, besides the link's delay; those
+  /// without an entry: not at all.
+  std::vector<Duration> late;
   EmulatedWiimoteOptions wiimote;  ///< each device derives its own seed from this one
 };
 

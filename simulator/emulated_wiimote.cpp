@@ -17,10 +17,10 @@ std::array<double, 3> resting_acceleration_g(const Rigid3& camera_from_room) {
 
 }  // namespace
 
-EmulatedSensor::EmulatedSensor(const CameraConfig& config, const HeadConfig& head, double noise_px,
+EmulatedSensor::EmulatedSensor(const CameraConfig& config, LedBody body, double noise_px,
                                std::uint64_t seed, std::vector<Glint> glints, double false_dots)
     : camera_(config),
-      helmet_(head),
+      body_(std::move(body)),
       glints_(std::move(glints)),
       noise_px_(noise_px),
       false_dots_(false_dots),
@@ -39,13 +39,15 @@ void EmulatedSensor::add_spot(const Vec3& x_in_room, double brightness,
   spots.push_back({x_px, y_px, brightness});
 }
 
-SensorView EmulatedSensor::view(const Rigid3& room_from_head) {
+SensorView EmulatedSensor::view(Time time) { return view(body_.room_from_body(time)); }
+
+SensorView EmulatedSensor::view(const Rigid3& room_from_body) {
   const Vec3 camera_in_room = camera_.room_from_camera().translation;
-  const Vec3 camera_in_head = inverse(room_from_head) * camera_in_room;
+  const Vec3 camera_in_body = inverse(room_from_body) * camera_in_room;
   SensorView view;
   view.acceleration_g = acceleration_g_;
-  for (const LedCluster& cluster : helmet_.clusters())
-    add_spot(room_from_head * cluster.x_in_head, helmet_.brightness(cluster, camera_in_head),
+  for (std::size_t led = 0; led < body_.leds_in_body.size(); ++led)
+    add_spot(room_from_body * body_.leds_in_body[led], body_.brightness(led, camera_in_body),
              view.spots);
   for (const Glint& glint : glints_)
     add_spot(glint.x_in_room, glint.brightness / (glint.x_in_room - camera_in_room).squaredNorm(),
@@ -56,9 +58,9 @@ SensorView EmulatedSensor::view(const Rigid3& room_from_head) {
   return view;
 }
 
-SensorState EmulatedSensor::look(const Rigid3& room_from_head) {
+SensorState EmulatedSensor::look(const Rigid3& room_from_body) {
   constexpr double kZero_raw = 0x200, kGravity_raw = 0x68;  // WiiBrew's typical values
-  const SensorView view = this->view(room_from_head);
+  const SensorView view = this->view(room_from_body);
   SensorState state;
   for (std::size_t axis = 0; axis < 3; ++axis)
     state.acceleration_raw[axis] =

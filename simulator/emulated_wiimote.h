@@ -1,4 +1,4 @@
-// What an emulated Wiimote of the virtual room sees: the helmet's LEDs and whatever reflects them,
+// What an emulated Wiimote of the virtual room sees: a body's LEDs and whatever reflects them,
 // through its lens. Bytes, registers and arrival times are the emulator's in tracker/wiimote/.
 #pragma once
 
@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "simulator/helmet.h"
-#include "simulator/person.h"
+#include "simulator/led_body.h"
 #include "tracker/camera_model.h"
 #include "tracker/wiimote/emulator_device.h"
 
@@ -35,21 +34,28 @@ struct EmulatedWiimoteOptions {
 /// The light on the sensor. Bound to one thread.
 class EmulatedSensor {
  public:
+  EmulatedSensor(const CameraConfig& config, LedBody body, double noise_px, std::uint64_t seed,
+                 std::vector<Glint> glints = {}, double false_dots = 0);
+  /// Of a helmet.
   EmulatedSensor(const CameraConfig& config, const HeadConfig& head, double noise_px,
-                 std::uint64_t seed, std::vector<Glint> glints = {}, double false_dots = 0);
+                 std::uint64_t seed, std::vector<Glint> glints = {}, double false_dots = 0)
+      : EmulatedSensor(config, helmet_body(head, {}), noise_px, seed, std::move(glints),
+                       false_dots) {}
 
-  /// What reaches the Wiimote, of a head there.
-  SensorView view(const Rigid3& room_from_head);
+  /// What reaches the Wiimote, of a body there.
+  SensorView view(const Rigid3& room_from_body);
+  /// Of the body where it is at that time.
+  SensorView view(Time time);
 
   /// What a camera on the Wii's sensitivity level 4 makes of it, and an accelerometer that shows
   /// 0x200 at 0 g and 0x268 at 1 g.
-  SensorState look(const Rigid3& room_from_head);
+  SensorState look(const Rigid3& room_from_body);
 
  private:
   void add_spot(const Vec3& x_in_room, double brightness, std::vector<SensorSpot>& spots);
 
   CameraModel camera_;
-  Helmet helmet_;
+  LedBody body_;
   std::vector<Glint> glints_;
   double noise_px_;
   double false_dots_;

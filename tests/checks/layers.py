@@ -24,6 +24,7 @@ LAYERS = {
 # Library -> (how its headers begin, where they may show).
 LIBRARIES = {
     "OpenCV": (r"opencv2/", r"tracker/.*"),
+    "Ceres": (r"ceres/", r"tracker/calibration/.*"),
     "zlib": (r"zlib\.h", r"tracker/.*"),
     "sdbus-c++": (r"sdbus-c\+\+/", r"tracker/.*"),
     "GLFW": (r"GLFW/", r"renderer/.*"),

@@ -161,7 +161,8 @@ INSTANTIATE_TEST_SUITE_P(
              "position_m = [0, 1, 2]\npitch_deg = 90\n",
              "FILE:11: camera[0].exposure: is not known; known here: name, source, address, "
              "sensitivity, dot_format, lag_ms, focal_px, focal_aspect, centre_px, distortion, "
-             "position_m, look_at_m, heading_deg, pitch_deg, roll_deg"}),
+             "position_m, look_at_m, heading_deg, pitch_deg, roll_deg, "
+             "calibration"}),
     [](const auto& wrong) { return wrong.param.name; });
 
 TEST(SiteErrors, NameEveryFieldThatIsMissing) {

@@ -1,0 +1,199 @@
+// vindu calibrate: the parent of the calibrations, and what they share.
+#include "app/calibrate.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/cameras.h"
+#include "app/common.h"
+#include "app/stop_signals.h"
+#include "core/error.h"
+#include "tracker/calibration/layout.h"
+#include "tracker/camera_model.h"
+#include "tracker/recording_devices.h"
+
+namespace vindu::app {
+namespace {
+
+std::string stamp(const char* format) {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format(fmt::runtime(format), fmt::gmtime(now));
+}
+
+std::string recording_name(const CalibrateOptions& options, const CaptureWish& wish) {
+  const std::string name = wish.name + stamp("-{:%Y%m%d-%H%M%S}.vrec");
+  if (options.wall_file.empty()) return name;
+  const std::string folder = calibration_folder(options.wall_file);
+  make_folder(folder);
+  return folder + "/" + name;
+}
+
+void watch_emulated(const CalibrateOptions& options, const CaptureWish& wish, Calibrating& run) {
+  run.truth = wish.known_cameras
+                  ? HiddenTruth{run.site.cameras, {}}
+                  : hide_truth(load_uncalibrated_site(options.wall_file).cameras, options.seed);
+  Site truth = run.site;
+  truth.cameras = run.truth->cameras;
+  ManualClock clock;
+  EmulatedRoomOptions room;
+  room.body = wish.body(truth);
+  room.late = run.truth->late;
+  room.wiimote.seed = options.seed;
+  room.wiimote.noise_px = options.noise_px;
+  const EmulatedRoom emulated(truth, clock, room);
+  run.capture =
+      watch(emulated, truth.cameras.size(), clock, options.seconds.value_or(wish.seconds));
+}
+
+/// On a terminal only, over and over on one line.
+class ProgressLine {
+ public:
+  ~ProgressLine() {
+    if (shown_) std::fputs("\n", stderr);
+  }
+  void show(const std::string& text) {
+    if (!terminal_) return;
+    fmt::print(stderr, "\r\x1b[K{}", text);
+    shown_ = true;
+  }
+
+ private:
+  const bool terminal_ = isatty(STDERR_FILENO) == 1;
+  bool shown_ = false;
+};
+
+void watch_live(const CalibrateOptions& options, const CaptureWish& wish, Calibrating& run) {
+  const StopSignals signals;
+  MonotonicClock clock;
+  EmulatedRoomOptions beside;
+  beside.body = wish.body(run.site);
+  const EmulatedRoom room(run.site, clock, beside);  // for those that are emulated
+  RecordingInfo info{
+      .program = "vindu " VINDU_VERSION,
+      .started_utc_ns = Duration(std::chrono::system_clock::now().time_since_epoch()).count(),
+      .started = clock.now(),
+      .wall_file = options.wall_file,
+      .wall_text = options.wall_file.empty() ? "" : site_text(options.wall_file),
+      .devices = {}};
+  for (const CameraConfig& camera : run.site.cameras)
+    info.devices.push_back({static_cast<int>(info.devices.size()), camera.name});
+  run.recording = recording_name(options, wish);
+  RecordingWriter writer(run.recording, info);
+  {
+    const Cameras cameras(
+        run.site, room, clock, {.tap = [&](std::unique_ptr<HidDevice> device, int camera) {
+          return std::make_unique<RecordingHidDevice>(std::move(device), writer, camera);
+        }});
+    ProgressLine line;
+    const Time end = options.seconds ? clock.now() + from_seconds(*options.seconds) : Time::max();
+    line.show(wish.request);
+    for (int round = 0; clock.now() < end; ++round) {
+      for (const auto& camera : cameras.sources())
+        while (const auto seen = camera->next(clock.now()))
+          run.capture.observations.push_back(*seen);
+      if (round % 5 == 4) line.show(wish.progress(run.capture) + "   (Ctrl-C: enough)");
+      if (signals.came_within(std::chrono::milliseconds(100))) break;
+    }
+  }
+  writer.flush();
+  const bool wiimotes = std::ranges::any_of(run.site.cameras, [](const CameraConfig& camera) {
+    return camera.source != CameraSource::video;
+  });
+  run.capture.up_in_camera.assign(run.site.cameras.size(), std::nullopt);
+  if (wiimotes) run.capture.up_in_camera = read_capture(run.recording, run.site).up_in_camera;
+}
+
+bool may_write(const CalibrateOptions& options, const Calibrating& run) {
+  if (!options.dry_run && run.wall_file.empty())
+    fmt::print(stderr, "Nothing is written: name your wall file by --wall FILE.\n");
+  return !options.dry_run && !run.wall_file.empty();
+}
+
+}  // namespace
+
+void add_calibrate_options(CLI::App& app, CalibrateOptions& options) {
+  app.add_option("--wall", options.wall_file,
+                 "Wall file, beside which the result is written (default: the Tromsø wall, and "
+                 "nothing is written)")
+      ->type_name("FILE");
+  app.add_option("--from", options.from, "A recording, instead of live cameras")->type_name("FILE");
+  app.add_option("--seconds", options.seconds, "Length (default: until Ctrl-C)")
+      ->check(CLI::Range(0.5, 1e6));
+  app.add_option("--seed", options.seed, "Of emulated cameras, and of where they truly stand");
+  app.add_option("--noise-px", options.noise_px, "Of emulated cameras (default: 0.6)")
+      ->check(CLI::Range(0.0, 20.0));
+  app.add_flag("--json", options.json, "Figures as JSON");
+  app.add_flag("--dry-run", options.dry_run, "Write nothing");
+}
+
+Calibrating capture(const CalibrateOptions& options, const CaptureWish& wish) {
+  Calibrating run{.site = load_site(options.wall_file),
+                  .wall_file = options.wall_file,
+                  .capture = {},
+                  .recording = {},
+                  .truth = {}};
+  if (run.site.cameras.empty())
+    throw Error({"names no [[camera]]", options.wall_file, "add the cameras to be calibrated"});
+  if (!options.from.empty()) {
+    run.capture = read_capture(options.from, run.site);
+    run.recording = options.from;
+  } else if (all_emulated(run.site)) {
+    watch_emulated(options, wish, run);
+  } else {
+    watch_live(options, wish, run);
+  }
+  return run;
+}
+
+std::string date_now() { return stamp("{:%Y-%m-%d %H:%M} UTC"); }
+
+void write(const CalibrateOptions& options, const Calibrating& run,
+           const std::vector<CameraCalibration>& cameras) {
+  if (may_write(options, run))
+    fmt::print(stderr, "Written to {}\n", write_calibration(run.wall_file, cameras));
+}
+
+void write(const CalibrateOptions& options, const Calibrating& run, const HeadCalibration& head) {
+  if (may_write(options, run))
+    fmt::print(stderr, "Written to {}\n", write_calibration(run.wall_file, head));
+}
+
+std::string layout_remark(const HeadConfig& head) {
+  const LayoutAmbiguity ambiguity = layout_ambiguity(head.leds_in_head);
+  if (ambiguity.rigid_mm >= kAmbiguous_mm) return "";
+  return fmt::format(
+      "warning: a wrong labelling of the head's {} LEDs fits to {:.1f} mm; only that heads are "
+      "upright tells them apart. Move one LED by a few centimetres.\n",
+      head.leds_in_head.size(), ambiguity.rigid_mm);
+}
+
+double coverage_so_far(const Capture& capture, std::size_t camera, const Site& site) {
+  const CameraConfig& config = site.cameras[camera];
+  const bool video = config.source == CameraSource::video;
+  Coverage coverage;
+  for (const Observation& seen : capture.observations)
+    if (static_cast<std::size_t>(seen.camera) == camera)
+      for (const Dot& dot : seen.dots)
+        coverage.add({dot.x_px, dot.y_px}, video ? config.video.width_px : kWiimoteWidth_px,
+                     video ? config.video.height_px : kWiimoteHeight_px);
+  return coverage.share();
+}
+
+void add_calibrate(CLI::App& parent, Action& chosen) {
+  CLI::App* app = parent.add_subcommand(
+      "calibrate", "Where cameras stand, what their lenses are, where helmets' LEDs sit");
+  app->require_subcommand(1);
+  add_calibrate_wand(*app, chosen);
+  add_calibrate_wall(*app, chosen);
+  add_calibrate_head(*app, chosen);
+  add_calibrate_intrinsics(*app, chosen);
+  add_calibrate_extrinsics(*app, chosen);
+  app->footer("\nvindu calibrate wand finds cameras and lenses at once, from a waved wand.\n");
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,146 @@
+// vindu calibrate head: where a helmet's LEDs sit, and the eye among them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "app/calibrate.h"
+#include "app/common.h"
+#include "core/error.h"
+#include "tracker/calibration/head.h"
+#include "tracker/calibration/layout.h"
+
+namespace vindu::app {
+namespace {
+
+struct HeadCommand {
+  CalibrateOptions common;
+  std::string name;
+  HeadOptions head;
+  std::optional<Vec3> eye_in_wall;
+};
+
+/// Emulated: the wall file's helmet, its LEDs up to 8 mm off, on somebody who stands still for 3 s.
+struct EmulatedWearer {
+  HeadConfig head;
+  Vec3 place_in_room;
+
+  EmulatedWearer(const Site& site, const HeadConfig& known, std::uint64_t seed) : head(known) {
+    Random random(seed);
+    for (Vec3& led : head.leds_in_head)
+      for (int axis = 0; axis < 3 && !led.isZero(); ++axis)
+        led[axis] += random.uniform(-8e-3, 8e-3);
+    place_in_room = site.wall.room_from_wall * site.viewer.default_eye_in_wall - head.eye_in_head;
+  }
+
+  LedBody body(std::uint64_t seed) const {
+    WaveOptions wave;
+    wave.seed = seed;
+    wave.start = Time{std::chrono::seconds(3)};
+    wave.room_from_rest.translation = place_in_room;
+    wave.reach_m = {0.4, 0.1, 0.3};
+    wave.turn_rad = {0.2, 0.4, 0.2};
+    wave.tempo_hz = 0.1;
+    const BodyMotion moving = waved(wave);
+    return bare_leds(head.leds_in_head, [moving, rest = wave.room_from_rest](Time time) {
+      const double t = std::clamp((seconds(time.time_since_epoch()) - 3) / 2, 0.0, 1.0);
+      return interpolate(rest, moving(time), t * t * (3 - 2 * t));
+    });
+  }
+};
+
+const HeadConfig& head_named(const std::string& name, const Site& site) {
+  if (name.empty()) return site.heads.front();
+  const auto head = std::ranges::find(site.heads, name, &HeadConfig::name);
+  if (head == site.heads.end())
+    throw Error({"no head has this name", name, "vindu check shows the wall file's heads"});
+  return *head;
+}
+
+void print(const HeadResult& result, const HeadConfig* truth, bool json) {
+  const HeadConfig& head = result.head;
+  std::string leds;
+  for (const Vec3& led : head.leds_in_head)
+    leds += fmt::format("{}[{:.5f}, {:.5f}, {:.5f}]", leds.empty() ? "" : ", ", led.x(), led.y(),
+                        led.z());
+  const Vec3& eye = head.eye_in_head;
+  if (json) {
+    fmt::print(R"({{"leds_m":[{}],"eye_m":[{},{},{}],"rms_px":{},"led_sigma_mm":{},"moments":{}}})"
+               "\n",
+               leds, eye.x(), eye.y(), eye.z(), result.rms_px, result.led_sigma_mm, result.moments);
+    return;
+  }
+  fmt::print("leds_m = [{}]\neye_m = [{:.4f}, {:.4f}, {:.4f}]\n", leds, eye.x(), eye.y(), eye.z());
+  fmt::print("LEDs to {:.1f} mm, rms {:.2f} px of {} moments\n", result.led_sigma_mm, result.rms_px,
+             result.moments);
+  if (truth) {
+    double worst_mm = 0;
+    for (const Vec3& led : truth->leds_in_head) {
+      double nearest_mm = 1e9;
+      for (const Vec3& found : head.leds_in_head)
+        nearest_mm = std::min(nearest_mm, 1e3 * (found - led).norm());
+      worst_mm = std::max(worst_mm, nearest_mm);
+    }
+    fmt::print("the truth: LEDs at most {:.1f} mm off, eye {:.1f} mm\n", worst_mm,
+               1e3 * (truth->eye_in_head - eye).norm());
+  }
+  std::fputs(layout_remark(head).c_str(), stdout);
+}
+
+int calibrate_the_head(const HeadCommand& command) {
+  const Site site = load_site(command.common.wall_file);
+  const HeadConfig& known = head_named(command.name, site);
+  const EmulatedWearer wearer(site, known, command.common.seed);
+  CalibrateOptions common = command.common;
+  Calibrating run = capture(
+      common, {.name = "head",
+               .seconds = 40,
+               .request = "Stand still for some seconds, facing the wall; then walk, and turn a "
+                          "little to all sides",
+               .body = [&](const Site&) { return wearer.body(command.common.seed); },
+               .progress =
+                   [&](const Capture& so_far) {
+                     return fmt::format("{} pictures", so_far.observations.size());
+                   },
+               .known_cameras = true});
+  HeadOptions options = command.head;
+  if (run.truth) options.leds = static_cast<int>(known.leds_in_head.size());
+  if (run.truth && !command.eye_in_wall)
+    options.eye_in_room = wearer.place_in_room + wearer.head.eye_in_head;
+  if (command.eye_in_wall)
+    options.eye_in_room = run.site.wall.room_from_wall * *command.eye_in_wall;
+  const HeadResult result =
+      calibrate_head(run.capture, run.site.cameras, run.site.wall.room_from_wall, known, options);
+  print(result, run.truth ? &wearer.head : nullptr, command.common.json);
+  HeadCalibration found;
+  found.head = result.head;
+  found.note = {"head", date_now(), run.recording, result.rms_px, 0, result.led_sigma_mm, 0};
+  write(command.common, run, found);
+  return 0;
+}
+
+}  // namespace
+
+void add_calibrate_head(CLI::App& calibrate, Action& chosen) {
+  auto command = std::make_shared<HeadCommand>();
+  CLI::App* app = calibrate.add_subcommand(
+      "head", "Where a helmet's LEDs sit, and where the eye is, by calibrated cameras");
+  add_calibrate_options(*app, command->common);
+  app->add_option("--head", command->name, "Its name (default: the wall file's first)");
+  app->add_option("--leds", command->head.leds, "How many it has (default: 3)")
+      ->check(CLI::Range(3, 4));
+  app->add_option("--still-s", command->head.still_s,
+                  "So long the wearer stands still at first, facing the wall (default: 2)")
+      ->check(CLI::Range(0.5, 60.0));
+  add_vec3(*app, "--eye-at", command->eye_in_wall,
+           "Where the point between the eyes is meanwhile, in wall (default: eye_m stays)");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu calibrate head --wall wall.toml --eye-at 0,0.1,2\n"
+      "  vindu calibrate head --wall wall.toml --from helmet.vrec --leds 4\n");
+  app->callback(
+      [command, &chosen] { chosen = [command] { return calibrate_the_head(*command); }; });
+}
+
+}  // namespace vindu::app

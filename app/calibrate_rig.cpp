@@ -1,0 +1,216 @@
+// vindu calibrate intrinsics and extrinsics: single cameras by a rig of LEDs in a grid, as the
+// thesis did it (3.3, 4.2.4, A.4, A.5).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "app/calibrate.h"
+#include "app/calibrate_picture.h"
+#include "app/cameras.h"
+#include "app/common.h"
+#include "core/error.h"
+#include "tracker/calibration/grid.h"
+
+namespace vindu::app {
+namespace {
+
+struct RigCommand {
+  CalibrateOptions common;
+  std::vector<int> grid = {2, 2};
+  std::vector<double> spacing_mm = {91.44};
+  std::string camera;
+  LensOptions lens;
+  std::string picture;
+  std::optional<Vec3> rig_in_room;
+  double rig_heading_deg = 0;
+};
+
+Grid grid_of(const RigCommand& command) {
+  return {command.grid[0], command.grid[1], 1e-3 * command.spacing_mm.front(),
+          1e-3 * command.spacing_mm.back()};
+}
+
+std::size_t camera_named(const std::string& name, const Site& site) {
+  const auto camera = std::ranges::find(site.cameras, name, &CameraConfig::name);
+  if (camera == site.cameras.end())
+    throw Error({"no camera has this name", name, "vindu check shows the wall file's cameras"});
+  return static_cast<std::size_t>(camera - site.cameras.begin());
+}
+
+/// Waved before one camera, its LEDs towards it.
+LedBody waved_rig(const CameraConfig& truth, const Grid& grid, std::uint64_t seed) {
+  WaveOptions wave;
+  wave.seed = seed;
+  wave.room_from_rest =
+      truth.room_from_camera * Rigid3{Quat(Eigen::AngleAxisd(kPi, Vec3::UnitX())), {0, 0, 0.75}};
+  wave.reach_m = {0.2, 0.15, 0.2};
+  wave.turn_rad = {0.9, 0.9, 0.6};
+  return bare_leds(grid.leds_in_rig(), waved(wave));
+}
+
+std::string lens_line(const std::string& name, const LensResult& lens) {
+  return fmt::format(
+      "{}: focal length {:.1f} +- {:.1f} px, centre {:.1f} +- {:.1f}, {:.1f} +- {:.1f} px, k1 "
+      "{:.3f} "
+      "+- {:.3f}; {} views, rms {:.2f} px, {:.0f} % of the picture covered\n",
+      name, lens.intrinsics.fx_px, lens.focal_sigma_px, lens.intrinsics.cx_px,
+      lens.centre_sigma_px.x(), lens.intrinsics.cy_px, lens.centre_sigma_px.y(),
+      lens.intrinsics.distortion[0], lens.k1_sigma, lens.views, lens.rms_px,
+      100 * lens.coverage.share());
+}
+
+std::string lens_json(const std::string& name, const LensResult& lens) {
+  const auto& [k1, k2, p1, p2, k3] = lens.intrinsics.distortion;
+  return fmt::format(R"({{"name":{},"focal_px":[{},{}],"focal_sigma_px":{},"centre_px":[{},{}],)"
+                     R"("distortion":[{},{},{},{},{}],"views":{},"rms_px":{},"coverage":{}}})"
+                     "\n",
+                     json_text(name), lens.intrinsics.fx_px, lens.intrinsics.fy_px,
+                     lens.focal_sigma_px, lens.intrinsics.cx_px, lens.intrinsics.cy_px, k1, k2, p1,
+                     p2, k3, lens.views, lens.rms_px, lens.coverage.share());
+}
+
+int intrinsics(const RigCommand& command) {
+  const Grid grid = grid_of(command);
+  const Site site = load_site(command.common.wall_file);
+  const std::size_t camera = command.camera.empty() ? 0 : camera_named(command.camera, site);
+  const Calibrating run =
+      capture(command.common,
+              {.name = "intrinsics",
+               .seconds = command.lens.views * command.lens.interval_s + 5,
+               .request = "Move the rig about before the camera, tilted all ways, into all corners",
+               .body =
+                   [&](const Site& truth) {
+                     return waved_rig(truth.cameras.at(camera), grid, command.common.seed);
+                   },
+               .progress =
+                   [&](const Capture& so_far) {
+                     return fmt::format("{}: {:.0f} % covered", site.cameras.at(camera).name,
+                                        100 * coverage_so_far(so_far, camera, site));
+                   }});
+  const LensResult lens = calibrate_lens(run.capture, run.site.cameras, camera, grid, command.lens);
+  const std::string& name = run.site.cameras[camera].name;
+  std::fputs((command.common.json ? lens_json(name, lens) : lens_line(name, lens)).c_str(), stdout);
+  if (run.truth && !command.common.json) {
+    const Intrinsics& truth = run.truth->cameras[camera].intrinsics;
+    fmt::print("the truth: focal length {:.1f} px, centre {:.1f}, {:.1f} px, k1 {:.3f}\n",
+               truth.fx_px, truth.cx_px, truth.cy_px, truth.distortion[0]);
+  }
+  if (!command.picture.empty())
+    write_png(coverage_picture({{name, lens.coverage}}), command.picture);
+  CameraCalibration found;
+  found.camera = name;
+  found.intrinsics = lens.intrinsics;
+  found.note = {"intrinsics", date_now(), run.recording, lens.rms_px, lens.focal_sigma_px, 0, 0};
+  write(command.common, run, {found});
+  return 0;
+}
+
+Rigid3 room_from_rig(const RigCommand& command, const Site& site) {
+  Vec3 place(0, 1.5, 1.5);
+  if (command.rig_in_room)
+    place = *command.rig_in_room;
+  else if (!all_emulated(site))
+    throw Error({"its place is not known", "rig", "measure it and say --rig-at x,y,z (room)"});
+  return {Quat(Eigen::AngleAxisd(radians(command.rig_heading_deg), Vec3::UnitY())), place};
+}
+
+int extrinsics(const RigCommand& command) {
+  const Grid grid = grid_of(command);
+  const Site site = load_site(command.common.wall_file);
+  const Rigid3 rig = room_from_rig(command, site);
+  const Calibrating run = capture(
+      command.common,
+      {.name = "extrinsics",
+       .seconds = 3,
+       .request = "Put the rig at its place, its LEDs towards the cameras",
+       .body =
+           [&](const Site&) { return bare_leds(grid.leds_in_rig(), [rig](Time) { return rig; }); },
+       .progress =
+           [&](const Capture& so_far) {
+             return fmt::format("{} pictures", so_far.observations.size());
+           }});
+  std::vector<CameraCalibration> found;
+  for (std::size_t i = 0; i < run.site.cameras.size(); ++i) {
+    if (!command.camera.empty() && run.site.cameras[i].name != command.camera) continue;
+    const PlaceResult place = calibrate_place(run.capture, run.site.cameras, i, grid, rig);
+    const Vec3& at = place.room_from_camera.translation;
+    CameraCalibration of_camera;
+    of_camera.camera = run.site.cameras[i].name;
+    of_camera.room_from_camera = place.room_from_camera;
+    of_camera.note = {
+        "extrinsics", date_now(), run.recording, place.rms_px, 0, place.position_sigma_mm, 0};
+    if (command.common.json)
+      fmt::print(R"({{"name":{},"position_m":[{},{},{}],"position_sigma_mm":{},"rms_px":{}}})"
+                 "\n",
+                 json_text(of_camera.camera), at.x(), at.y(), at.z(), place.position_sigma_mm,
+                 place.rms_px);
+    else
+      fmt::print(
+          "{}: at {:.3f} {:.3f} {:.3f} m in room, to {:.0f} mm; rms {:.2f} px of {} pictures\n",
+          of_camera.camera, at.x(), at.y(), at.z(), place.position_sigma_mm, place.rms_px,
+          place.pictures);
+    if (run.truth && !command.common.json) {
+      const Vec3& truth = run.truth->cameras[i].room_from_camera.translation;
+      fmt::print("  the truth: {:.3f} {:.3f} {:.3f} m, {:.0f} mm away\n", truth.x(), truth.y(),
+                 truth.z(), 1e3 * (truth - at).norm());
+    }
+    found.push_back(std::move(of_camera));
+  }
+  write(command.common, run, found);
+  return 0;
+}
+
+void add_rig_options(CLI::App& app, RigCommand& command) {
+  add_calibrate_options(app, command.common);
+  app.add_option("--grid", command.grid, "LEDs across and up, 2 to 4 each (default: 2,2)")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::Range(2, 4))
+      ->type_name("N,M");
+  app.add_option("--spacing-mm", command.spacing_mm,
+                 "From LED to LED, across and up (default: 91.44, the thesis' rig)")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->check(CLI::Range(5.0, 5000.0))
+      ->type_name("A[,B]");
+}
+
+}  // namespace
+
+void add_calibrate_intrinsics(CLI::App& calibrate, Action& chosen) {
+  auto command = std::make_shared<RigCommand>();
+  CLI::App* app = calibrate.add_subcommand(
+      "intrinsics", "One camera's lens, from views of a rig of LEDs in a grid");
+  add_rig_options(*app, *command);
+  app->add_option("--camera", command->camera, "Its name (default: the wall file's first)");
+  app->add_option("--views", command->lens.views, "Default: 30")->check(CLI::Range(10, 300));
+  app->add_option("--interval-s", command->lens.interval_s, "Between views (default: 0.5)")
+      ->check(CLI::Range(0.05, 60.0));
+  app->add_option("--picture", command->picture, "What the camera has seen of its view")
+      ->type_name("FILE.png");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu calibrate intrinsics --wall wall.toml --camera left\n"
+      "  vindu calibrate intrinsics --wall wall.toml --grid 4,3 --spacing-mm 60\n");
+  app->callback([command, &chosen] { chosen = [command] { return intrinsics(*command); }; });
+}
+
+void add_calibrate_extrinsics(CLI::App& calibrate, Action& chosen) {
+  auto command = std::make_shared<RigCommand>();
+  CLI::App* app = calibrate.add_subcommand(
+      "extrinsics", "Where cameras stand, from a rig of LEDs that stands at a known place");
+  add_rig_options(*app, *command);
+  app->add_option("--camera", command->camera, "Only this one (default: all)");
+  add_vec3(*app, "--rig-at", command->rig_in_room, "The rig's middle in room, metres");
+  app->add_option("--rig-heading-deg", command->rig_heading_deg,
+                  "Its turn about the vertical; 0: its LEDs face away from the wall")
+      ->check(CLI::Range(-360.0, 360.0));
+  app->footer(
+      "\nExample:\n"
+      "  vindu calibrate extrinsics --wall wall.toml --rig-at 0,1.5,1.5 --spacing-mm 300\n");
+  app->callback([command, &chosen] { chosen = [command] { return extrinsics(*command); }; });
+}
+
+}  // namespace vindu::app

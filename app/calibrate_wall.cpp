@@ -1,0 +1,112 @@
+// vindu calibrate wall: ties the cameras to the wall by points of it that somebody touches with an
+// LED.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "app/calibrate.h"
+#include "app/common.h"
+#include "core/error.h"
+#include "tracker/calibration/wall_touch.h"
+
+namespace vindu::app {
+namespace {
+
+struct WallCommand {
+  CalibrateOptions common;
+  int targets = 5;
+};
+
+/// Emulated: held to each point for 2 s, then moved on in 1 s.
+LedBody touching_led(const std::vector<WallTarget>& targets, const Rigid3& room_from_wall) {
+  return bare_leds({Vec3::Zero()}, [=](Time time) {
+    const double t = std::max(0.0, seconds(time.time_since_epoch()) / 3);
+    const auto from = std::min(static_cast<std::size_t>(t), targets.size() - 1);
+    const auto to = std::min(from + 1, targets.size() - 1);
+    const double share = std::clamp(3 * (t - static_cast<double>(from)) - 2, 0.0, 1.0);
+    return Rigid3{Quat::Identity(), room_from_wall * ((1 - share) * targets[from].x_in_wall +
+                                                      share * targets[to].x_in_wall)};
+  });
+}
+
+std::string progress_of(const Capture& so_far, const Site& site,
+                        const std::vector<WallTarget>& targets) {
+  const std::size_t done = find_touches(so_far, site.cameras).size();
+  if (done >= targets.size()) return "all points are touched";
+  return fmt::format("{} of {}: hold the LED to the {}", done + 1, targets.size(),
+                     targets[done].name);
+}
+
+void print(const std::vector<WallTarget>& targets, const WallFit& fit, bool json) {
+  if (json) {
+    fmt::print("{{\"rms_mm\":{},\"scale\":{},\"residuals_mm\":[{}]}}\n", fit.rms_mm, fit.scale,
+               fmt::join(fit.residuals_mm, ","));
+    return;
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    fmt::print("{:<36}{:>8.1f} mm off\n", targets[i].name, fit.residuals_mm[i]);
+  fmt::print("rms {:.1f} mm; the wall is {:.2f} % {} than the cameras see it\n", fit.rms_mm,
+             100 * std::abs(fit.scale - 1), fit.scale < 1 ? "smaller" : "larger");
+  if (std::abs(fit.scale - 1) > 0.02)
+    fmt::print("The cameras' scale is off: was the wand's length right?\n");
+}
+
+/// Thesis 3.4.2: in virtual mode what was found stands beside what is true.
+void print_truth(const std::vector<CameraCalibration>& found, const HiddenTruth& truth) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Rigid3 off = inverse(truth.cameras[i].room_from_camera) * *found[i].room_from_camera;
+    fmt::print("the truth: {} is {:.1f} mm and {:.2f} degrees off\n", found[i].camera,
+               1e3 * off.translation.norm(), degrees(Eigen::AngleAxisd(off.rotation).angle()));
+  }
+}
+
+int calibrate_wall(const WallCommand& command) {
+  const Site site = load_site(command.common.wall_file);
+  const auto targets = choose_targets(site, command.targets);
+  if (targets.size() < 3)
+    throw Error({fmt::format("two cameras see {} tile corners together", targets.size()), "wall",
+                 "turn the cameras so that views of two overlap on the wall"});
+  fmt::print(stderr, "Hold the only LED still for two seconds at each, in this order:\n");
+  for (const WallTarget& target : targets) fmt::print(stderr, "  {}\n", target.name);
+  const Calibrating run = capture(
+      command.common,
+      {.name = "wall",
+       .seconds = 3.0 * static_cast<double>(targets.size()) + 1,
+       .request = "Hold the LED to the first point",
+       .body = [&](const Site& truth) { return touching_led(targets, truth.wall.room_from_wall); },
+       .progress = [&](const Capture& so_far) { return progress_of(so_far, site, targets); }});
+  auto touches = find_touches(run.capture, run.site.cameras);
+  const WallFit fit = fit_wall(touches, targets, run.site.wall.room_from_wall);
+  print(targets, fit, command.common.json);
+  std::vector<CameraCalibration> found;
+  for (const CameraConfig& camera : run.site.cameras) {
+    CameraCalibration moved;
+    moved.camera = camera.name;
+    moved.room_from_camera = fit.room_from_before * camera.room_from_camera;
+    moved.note = camera.calibration.value_or(CalibrationNote{});
+    moved.note.method += moved.note.method.empty() ? "wall" : " + wall";
+    moved.note.date = date_now();
+    found.push_back(std::move(moved));
+  }
+  if (run.truth && !command.common.json) print_truth(found, *run.truth);
+  write(command.common, run, found);
+  return 0;
+}
+
+}  // namespace
+
+void add_calibrate_wall(CLI::App& calibrate, Action& chosen) {
+  auto command = std::make_shared<WallCommand>();
+  CLI::App* app = calibrate.add_subcommand(
+      "wall", "Where the wall is for the cameras: hold an LED to corners of its tiles");
+  add_calibrate_options(*app, command->common);
+  app->add_option("--targets", command->targets, "So many corners (default: 5)")
+      ->check(CLI::Range(3, 20));
+  app->footer("\nExample, after a wand calibration:\n  vindu calibrate wall --wall wall.toml\n");
+  app->callback([command, &chosen] { chosen = [command] { return calibrate_wall(*command); }; });
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,84 @@
+// vindu calibrate: with emulated cameras that stand elsewhere than the wall file says, each
+// calibration finds them, writes what it found, and says how good that is.
+#include "tests/app/process.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class CalibrateCommand : public AppTest {
+ protected:
+  CalibrateCommand()
+      : wall_(write("wall.toml", bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml"))) {}
+  const std::string wall_;
+};
+
+TEST_F(CalibrateCommand, ByAWandWritesWhatCheckThenShows) {
+  const ProcessResult result =
+      vindu({"calibrate", "wand", "--wall", wall_, "--picture", path("seen.png")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("left"), HasSubstr("right"), HasSubstr("the truth")));
+  EXPECT_THAT(bytes_of(path("calibration/cameras.toml")), HasSubstr("method = \"wand\""));
+  EXPECT_THAT(bytes_of(path("seen.png")), HasSubstr("PNG"));
+  EXPECT_THAT(vindu({"check", wall_}).out, HasSubstr("calibrated by wand"));
+}
+
+TEST_F(CalibrateCommand, ByAWandThenByTheWallFitsTheWall) {
+  ASSERT_EQ(vindu({"calibrate", "wand", "--wall", wall_}).exit_code, 0);
+  const ProcessResult result = vindu({"calibrate", "wall", "--wall", wall_});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("corner of tile-"), HasSubstr("rms")));
+  EXPECT_THAT(bytes_of(path("calibration/cameras.toml")), HasSubstr("wand + wall"));
+}
+
+TEST_F(CalibrateCommand, OfTheWallWithoutPlacedCamerasIsRefused) {
+  const ProcessResult result = vindu({"calibrate", "wall", "--wall", wall_});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("wand"));
+}
+
+TEST_F(CalibrateCommand, OfAHeadWritesItsLedsAndWarnsOfSymmetry) {
+  const ProcessResult result = vindu({"calibrate", "head", "--wall", wall_, "--eye-at", "0,0.1,2"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("leds_m = [["), HasSubstr("warning")));
+  EXPECT_THAT(bytes_of(path("calibration/heads.toml")), HasSubstr("[[calibrated_head]]"));
+}
+
+TEST_F(CalibrateCommand, ByARigPrintsOneLineOfJsonAndWritesNothingInADryRun) {
+  for (const char* kind : {"intrinsics", "extrinsics"}) {
+    const ProcessResult result =
+        vindu({"calibrate", kind, "--wall", wall_, "--camera", "right", "--spacing-mm", "250",
+               "--rig-at", "0,1.65,2", "--json", "--dry-run"});
+    if (std::string(kind) == "extrinsics") {
+      EXPECT_EQ(result.exit_code, 0);
+      EXPECT_THAT(lines_of(result.out), ::testing::SizeIs(1));
+    } else {
+      EXPECT_EQ(result.exit_code, 2);  // a lens needs no place
+    }
+  }
+  const ProcessResult lens =
+      vindu({"calibrate", "intrinsics", "--wall", wall_, "--json", "--dry-run"});
+  EXPECT_EQ(lens.exit_code, 0);
+  EXPECT_THAT(lens.out, HasSubstr("\"focal_px\""));
+  EXPECT_THAT(files_in("."), ::testing::ElementsAre("wall.toml"));
+}
+
+TEST_F(CalibrateCommand, WithoutAWallFileWritesNothingAndSaysSo) {
+  const ProcessResult result = vindu({"calibrate", "wand", "--seconds", "30"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("--wall"));
+}
+
+TEST_F(CalibrateCommand, ThatIsTooShortIsRefused) {
+  const ProcessResult result = vindu({"calibrate", "wand", "--wall", wall_, "--seconds", "2"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(lines_of(result.err), ::testing::SizeIs(1));
+  EXPECT_THAT(result.out, IsEmpty());
+}
+
+}  // namespace
+}  // namespace vindu

@@ -1,0 +1,50 @@
+// How well LEDs can be told apart by their places.
+#include "tracker/calibration/layout.h"
+
+#include <gtest/gtest.h>
+
+#include "core/site.h"
+
+namespace vindu {
+namespace {
+
+TEST(Layout, OfTheThesisHelmetIsAmbiguous) {
+  EXPECT_LT(layout_ambiguity(HeadConfig{}.leds_in_head).rigid_mm, 1e-6);
+}
+
+TEST(Layout, OfAScaleneTriangleIsToldBySomeMillimetres) {
+  const LayoutAmbiguity ambiguity =
+      layout_ambiguity({{-0.10, 0, -0.05}, {0, 0, 0}, {0.10, 0, -0.15}});
+  EXPECT_GT(ambiguity.rigid_mm, kAmbiguous_mm);
+  EXPECT_EQ(ambiguity.labelling.size(), 3u);
+}
+
+TEST(Layout, OfASquareIsAmbiguous) {
+  EXPECT_LT(layout_ambiguity({{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}).rigid_mm, 1e-6);
+}
+
+TEST(Layout, ThatIsItsOwnMirrorImageIsAmbiguousInAMirrorOnly) {
+  // No rotation, but a reflection in x = 0 maps it upon itself.
+  const LayoutAmbiguity ambiguity =
+      layout_ambiguity({{-0.1, 0, 0}, {0.1, 0, 0}, {0, 0.03, 0.09}, {0, 0.12, -0.05}});
+  EXPECT_GT(ambiguity.rigid_mm, 5);
+  EXPECT_LT(ambiguity.mirrored_mm, 1e-6);
+}
+
+TEST(Layout, OfTwoLedsIsAlwaysAmbiguous) {
+  EXPECT_EQ(layout_ambiguity({{0, 0, 0}, {0.1, 0, 0}}).rigid_mm, 0);
+}
+
+TEST(PointFit, FindsTheRotationAndTranslation) {
+  const Rigid3 a_from_b{Quat(Eigen::AngleAxisd(2.0, Vec3(1, -2, 0.5).normalized())), {1, 2, 3}};
+  const std::vector<Vec3> in_b = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
+  std::vector<Vec3> in_a;
+  for (const Vec3& x : in_b) in_a.push_back(a_from_b * x);
+  const PointFit fit = fit_points(in_a, in_b);
+  EXPECT_LT((fit.rotation - a_from_b.rotation.toRotationMatrix()).norm(), 1e-12);
+  EXPECT_LT(fit.rms, 1e-12);
+  EXPECT_NEAR(fit.rotation.determinant(), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace vindu

@@ -1,0 +1,84 @@
+// The wall's frame from touched points, on report bytes of emulated Wiimotes.
+#include "tracker/calibration/wall_touch.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "tests/calibration/emulated_capture.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+
+Site room_with_wall() {
+  Site site = true_site({{-1, 2.3, 4}, {1, 2.3, 4}});
+  site.wall = expand_wall({.columns = 7,
+                           .rows = 4,
+                           .width_m = 5.185,
+                           .height_m = 2.238,
+                           .tile_width_px = 1024,
+                           .tile_height_px = 768,
+                           .mount = {}},
+                          {}, room_from_wall_at(1.55, 0));
+  for (CameraConfig& camera : site.cameras)
+    camera.room_from_camera = look_at(camera.room_from_camera.translation, {0, 1.55, 0});
+  return site;
+}
+
+/// An LED that is held to one point after the other, 2 s each and 1 s between them.
+LedBody touching(const std::vector<WallTarget>& targets, const Rigid3& room_from_wall) {
+  return bare_leds({Vec3::Zero()}, [=](Time time) {
+    const double t = std::max(0.0, seconds(time.time_since_epoch()) / 3);
+    const auto from = std::min(static_cast<std::size_t>(t), targets.size() - 1);
+    const auto to = std::min(from + 1, targets.size() - 1);
+    const double share = std::clamp(3 * (t - static_cast<double>(from)) - 2, 0.0, 1.0);
+    return Rigid3{Quat::Identity(), room_from_wall * ((1 - share) * targets[from].x_in_wall +
+                                                      share * targets[to].x_in_wall)};
+  });
+}
+
+TEST(WallTargets, AreTileCornersThatTwoCamerasSeeFarApart) {
+  const auto targets = choose_targets(room_with_wall(), 5);
+  ASSERT_EQ(targets.size(), 5u);
+  EXPECT_THAT(targets[0].name, ::testing::HasSubstr("corner of tile-"));
+  EXPECT_GT((targets[0].x_in_wall - targets[1].x_in_wall).norm(), 1);
+}
+
+TEST(WallFit, BringsMovedCamerasBackToTheWall) {
+  EmulatedCapture wanted{.site = room_with_wall(), .seconds = 17};
+  const auto targets = choose_targets(wanted.site, 5);
+  wanted.body = touching(targets, wanted.site.wall.room_from_wall);
+  const Capture capture = capture_of(wanted);
+  const Rigid3 moved{Quat(Eigen::AngleAxisd(0.2, Vec3(1, 2, 3).normalized())), {0.3, -0.1, 0.2}};
+  auto said = wanted.site.cameras;
+  for (CameraConfig& camera : said) camera.room_from_camera = moved * camera.room_from_camera;
+  const auto touches = find_touches(capture, said);
+  ASSERT_EQ(touches.size(), targets.size());
+  const WallFit fit = fit_wall(touches, targets, wanted.site.wall.room_from_wall);
+  EXPECT_LT(fit.rms_mm, 15);
+  EXPECT_NEAR(fit.scale, 1, 0.01);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Rigid3 found = fit.room_from_before * said[i].room_from_camera;
+    const Rigid3& truth = wanted.site.cameras[i].room_from_camera;
+    EXPECT_LT((found.translation - truth.translation).norm(), 0.05);
+    EXPECT_LT(found.rotation.angularDistance(truth.rotation), radians(1));
+  }
+}
+
+TEST(WallFit, OfTouchesInAnotherOrderIsRefused) {
+  EmulatedCapture wanted{.site = room_with_wall(), .seconds = 17};
+  auto targets = choose_targets(wanted.site, 5);
+  wanted.body = touching(targets, wanted.site.wall.room_from_wall);
+  const auto touches = find_touches(capture_of(wanted), wanted.site.cameras);
+  std::swap(targets[0], targets[2]);
+  EXPECT_THROW(fit_wall(touches, targets, wanted.site.wall.room_from_wall), Error);
+}
+
+TEST(WallFit, OfTooFewTouchesIsRefused) {
+  const auto targets = choose_targets(room_with_wall(), 5);
+  EXPECT_THROW(fit_wall({}, targets, {}), Error);
+}
+
+}  // namespace
+}  // namespace vindu

@@ -1,0 +1,303 @@
+#include "tracker/calibration/head.h"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "tracker/calibration/layout.h"
+#include "tracker/calibration/lens.h"
+#include "tracker/camera_model.h"
+
+namespace vindu {
+namespace {
+
+using Points = std::vector<Vec3>;
+using Order = std::vector<std::size_t>;
+
+constexpr double kGap_m = 0.03;      // by which rays of one LED may pass each other
+constexpr double kMisfit_m = 0.02;   // rms of a moment's points from the helmet's
+constexpr std::size_t kTrials = 60;  // moments that choose the shape
+
+/// What two cameras saw at one time, all LEDs in both; and, once they are matched, which is which.
+struct Moment {
+  double t_s = 0;
+  std::vector<Vec2> a_px, b_px;  // image
+  Order of_a, of_b;              // dot of each LED
+  Rigid3 room_from_shape;
+};
+
+std::vector<Vec2> dots_at(const CameraTrack& track, double t_s, std::size_t count) {
+  const auto after = std::ranges::lower_bound(track.pictures, t_s, {}, &CameraTrack::Picture::t_s);
+  if (after == track.pictures.end() || after == track.pictures.begin()) return {};
+  const auto before = after - 1;
+  if (after->t_s - before->t_s > 0.05 || before->dots_px.size() != count ||
+      after->dots_px.size() != count)
+    return {};
+  const double share = (t_s - before->t_s) / (after->t_s - before->t_s);
+  std::vector<Vec2> dots;
+  for (const Vec2& dot : before->dots_px) {
+    const auto next = std::ranges::min_element(
+        after->dots_px, {}, [&](const Vec2& other) { return (other - dot).norm(); });
+    if ((*next - dot).norm() > 30) return {};
+    dots.push_back((1 - share) * dot + share * *next);
+  }
+  return dots;
+}
+
+std::vector<Moment> moments_of(const std::vector<CameraTrack>& tracks,
+                               const std::vector<CameraConfig>& cameras, std::size_t a,
+                               std::size_t b, std::size_t leds) {
+  std::vector<Moment> moments;
+  if (tracks[a].pictures.empty() || tracks[b].pictures.empty()) return moments;
+  for (double t_s = tracks[a].pictures.front().t_s; t_s < tracks[a].pictures.back().t_s;
+       t_s += 0.04) {
+    Moment moment{t_s,
+                  dots_at(tracks[a], t_s + 1e-3 * cameras[a].lag_ms, leds),
+                  dots_at(tracks[b], t_s + 1e-3 * cameras[b].lag_ms, leds),
+                  {},
+                  {},
+                  {}};
+    if (!moment.a_px.empty() && !moment.b_px.empty()) moments.push_back(std::move(moment));
+  }
+  return moments;
+}
+
+CameraConfig with_image_dots(CameraConfig camera) {
+  camera.source = CameraSource::video;  // whose dots are image coordinates
+  return camera;
+}
+
+/// The points of all pairs of dots, and their gaps.
+struct Crossings {
+  std::size_t count = 0;
+  std::vector<std::optional<TriangulatedPoint>> points;
+  const std::optional<TriangulatedPoint>& at(std::size_t a, std::size_t b) const {
+    return points[a * count + b];
+  }
+};
+
+Crossings cross(const CameraModel& a, const CameraModel& b, const Moment& moment) {
+  Crossings crossings{moment.a_px.size(), {}};
+  for (const Vec2& in_a : moment.a_px)
+    for (const Vec2& in_b : moment.b_px) {
+      auto point = triangulate(a.ray_through(in_a), b.ray_through(in_b));
+      if (point && point->gap_m > kGap_m) point.reset();
+      crossings.points.push_back(point);
+    }
+  return crossings;
+}
+
+std::optional<Points> points_of(const Crossings& crossings, const Order& of_a, const Order& of_b) {
+  Points points;
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    const auto& point = crossings.at(of_a[i], of_b[i]);
+    if (!point) return std::nullopt;
+    points.push_back(point->x_in_room);
+  }
+  return points;
+}
+
+std::vector<Order> orders_of(std::size_t count) {
+  Order order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<Order> all;
+  do all.push_back(order);
+  while (std::ranges::next_permutation(order).found);
+  return all;
+}
+
+/// The labels for which a moment's points fit the shape best, turned from it by less than 75
+/// degrees; the misfit, or a large one.
+double match(const Crossings& crossings, const std::vector<Order>& orders, const Points& shape,
+             Moment& moment) {
+  double least_m = 1;
+  for (const Order& of_a : orders)
+    for (const Order& of_b : orders) {
+      const auto points = points_of(crossings, of_a, of_b);
+      if (!points) continue;
+      const PointFit fit = fit_points(*points, shape);
+      const bool upright = Eigen::AngleAxisd(fit.rotation).angle() < radians(75);
+      if (!upright || fit.rms >= least_m) continue;
+      least_m = fit.rms;
+      moment.of_a = of_a, moment.of_b = of_b;
+      moment.room_from_shape = Rigid3::from(fit.rotation, fit.translation);
+    }
+  return least_m;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 1;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// The shape, as the first moment allows it, that the others fit best.
+Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<Order>& orders,
+                    const std::vector<Moment>& moments) {
+  Points best;
+  double least_m = kMisfit_m;
+  for (const Order& of_b : orders) {
+    const auto shape = points_of(crossings[0], orders[0], of_b);
+    if (!shape) continue;
+    std::vector<double> misfits_m;
+    const std::size_t step = std::max<std::size_t>(1, moments.size() / kTrials);
+    for (std::size_t i = 0; i < moments.size(); i += step) {
+      Moment moment = moments[i];
+      misfits_m.push_back(match(crossings[i], orders, *shape, moment));
+    }
+    if (const double misfit_m = median(misfits_m); misfit_m < least_m)
+      least_m = misfit_m, best = *shape;
+  }
+  return best;
+}
+
+struct HeadCost {
+  Vec2 dot_px;
+  Lens lens;
+  Rigid3 camera_from_room;
+
+  template <class T>
+  bool operator()(const T* turn, const T* place, const T* led, T* residual) const {
+    using Vector3 = Eigen::Matrix<T, 3, 1>;
+    const Eigen::Map<const Eigen::Quaternion<T>> rotation(turn);
+    const Vector3 x_in_room =
+        rotation * Eigen::Map<const Vector3>(led) + Eigen::Map<const Vector3>(place);
+    const Vector3 x_in_camera =
+        camera_from_room.rotation.cast<T>() * x_in_room + camera_from_room.translation.cast<T>();
+    const Eigen::Matrix<T, 9, 1> parameters = lens.cast<T>();
+    Eigen::Matrix<T, 2, 1> image_px;
+    if (!project<T>(parameters.data(), x_in_camera, image_px)) return false;
+    residual[0] = T(dot_px.x()) - image_px.x();
+    residual[1] = T(dot_px.y()) - image_px.y();
+    return true;
+  }
+};
+
+/// All poses and LEDs together; the first pose stays. Returns the rms in pixels.
+double adjust(const CameraConfig& a, const CameraConfig& b, std::vector<Moment>& moments,
+              Points& shape) {
+  ceres::Problem problem;
+  for (Moment& moment : moments) {
+    double* turn = moment.room_from_shape.rotation.coeffs().data();
+    double* place = moment.room_from_shape.translation.data();
+    problem.AddParameterBlock(turn, 4, new ceres::EigenQuaternionManifold);
+    for (std::size_t led = 0; led < shape.size(); ++led)
+      for (const bool first : {true, false}) {
+        const CameraConfig& camera = first ? a : b;
+        const Vec2& dot = first ? moment.a_px[moment.of_a[led]] : moment.b_px[moment.of_b[led]];
+        auto* cost =
+            new HeadCost{dot, lens_of(camera.intrinsics), inverse(camera.room_from_camera)};
+        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<HeadCost, 2, 4, 3, 3>(cost),
+                                 new ceres::HuberLoss(2), turn, place, shape[led].data());
+      }
+  }
+  problem.SetParameterBlockConstant(moments[0].room_from_shape.rotation.coeffs().data());
+  problem.SetParameterBlockConstant(moments[0].room_from_shape.translation.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 50;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return std::sqrt(2 * summary.final_cost / static_cast<double>(4 * shape.size() * moments.size()));
+}
+
+/// The pair of cameras that most often see all LEDs together.
+std::pair<std::size_t, std::size_t> best_pair(const std::vector<CameraTrack>& tracks,
+                                              const std::vector<CameraConfig>& cameras,
+                                              std::size_t leds) {
+  std::pair<std::size_t, std::size_t> best{0, 1};
+  std::size_t most = 0;
+  for (std::size_t a = 0; a < cameras.size(); ++a)
+    for (std::size_t b = a + 1; b < cameras.size(); ++b)
+      if (const auto count = moments_of(tracks, cameras, a, b, leds).size(); count > most)
+        most = count, best = {a, b};
+  return best;
+}
+
+/// The LEDs while the wearer stood still, in wall. Throws Error where he did not.
+Points still_in_wall(const std::vector<Moment>& moments, const Points& shape,
+                     const Rigid3& wall_from_room, double still_s) {
+  Points mean(shape.size(), Vec3::Zero());
+  double count = 0;
+  for (const Moment& moment : moments)
+    if (moment.t_s < moments[0].t_s + still_s) ++count;
+  for (const Moment& moment : moments)
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+      if (moment.t_s >= moments[0].t_s + still_s) continue;
+      mean[i] += wall_from_room * (moment.room_from_shape * shape[i]) / count;
+    }
+  for (const Moment& moment : moments)
+    if (moment.t_s < moments[0].t_s + still_s &&
+        (wall_from_room * (moment.room_from_shape * shape[0]) - mean[0]).norm() > 0.04)
+      throw Error(
+          {"does not stand still at first", "wearer",
+           fmt::format("look at the wall's middle, upright, for {:.0f} s, then move", still_s)});
+  const PointFit fit = fit_points(mean, shape);
+  Points leds;
+  for (const Vec3& led : shape) leds.push_back(fit.rotation * led + fit.translation);
+  return leds;
+}
+
+std::vector<Moment> thinned(std::vector<Moment> moments, double still_s, int most) {
+  std::vector<Moment> chosen;
+  std::vector<Moment> later;
+  for (Moment& moment : moments)
+    (moment.t_s < moments[0].t_s + still_s ? chosen : later).push_back(std::move(moment));
+  const std::size_t count = std::min(later.size(), static_cast<std::size_t>(most));
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(later[i * later.size() / count]);
+  return chosen;
+}
+
+}  // namespace
+
+HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig>& cameras,
+                          const Rigid3& room_from_wall, const HeadConfig& head,
+                          const HeadOptions& options) {
+  if (options.leds < 3 || options.leds > 4 || cameras.size() < 2)
+    throw Error({"can be measured with three or four LEDs by two cameras or more", "head",
+                 "cover the other LEDs"});
+  const auto leds = static_cast<std::size_t>(options.leds);
+  const auto tracks = moving_dots(capture, cameras);
+  const auto [a, b] = best_pair(tracks, cameras, leds);
+  auto moments =
+      thinned(moments_of(tracks, cameras, a, b, leds), options.still_s, options.max_moments);
+  if (moments.size() < 50)
+    throw Error(
+        {fmt::format("two cameras saw all {} LEDs at {} moments only", leds, moments.size()),
+         "head", "stay in view of two cameras for half a minute, turn little at a time"});
+  const CameraModel model_a(with_image_dots(cameras[a])), model_b(with_image_dots(cameras[b]));
+  std::vector<Crossings> crossings;
+  for (const Moment& moment : moments) crossings.push_back(cross(model_a, model_b, moment));
+  const auto orders = orders_of(leds);
+  Points shape = choose_shape(crossings, orders, moments);
+  if (shape.empty())
+    throw Error({"its dots are no rigid body", "head",
+                 "calibrate the cameras first; take other lights and shiny things away"});
+  std::vector<Moment> good;
+  for (std::size_t i = 0; i < moments.size(); ++i)
+    if (match(crossings[i], orders, shape, moments[i]) < kMisfit_m) good.push_back(moments[i]);
+  HeadResult result;
+  result.rms_px = adjust(cameras[a], cameras[b], good, shape);
+  result.moments = static_cast<int>(good.size());
+  Points in_wall = still_in_wall(good, shape, inverse(room_from_wall), options.still_s);
+  std::ranges::sort(in_wall, {}, [](const Vec3& led) { return led.x(); });
+  const Vec3 rear = *std::ranges::max_element(in_wall, {}, [](const Vec3& led) { return led.z(); });
+  result.head = head;
+  result.head.leds_in_head.clear();
+  for (const Vec3& led : in_wall) result.head.leds_in_head.push_back(led - rear);
+  if (options.eye_in_room)
+    result.head.eye_in_head = inverse(room_from_wall) * *options.eye_in_room - rear;
+  std::vector<double> misfits_m;
+  for (std::size_t i = 0; i < moments.size(); ++i)
+    misfits_m.push_back(match(crossings[i], orders, shape, moments[i]));
+  result.led_sigma_mm = 1e3 * median(misfits_m) / std::sqrt(static_cast<double>(good.size()));
+  return result;
+}
+
+}  // namespace vindu

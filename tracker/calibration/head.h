@@ -1,0 +1,33 @@
+// Measures a helmet: where its LEDs sit, and where the eye is among them, from a capture by
+// calibrated cameras. The wearer stands still at first and faces the wall, then turns and walks.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tracker/calibration/capture.h"
+
+namespace vindu {
+
+struct HeadOptions {
+  int leds = 3;        ///< of the helmet
+  double still_s = 2;  ///< at the beginning: facing the wall, upright
+  int max_moments = 400;
+  /// Where the eye is while the wearer stands still; empty: eye_in_head stays as it was.
+  std::optional<Vec3> eye_in_room;
+};
+
+struct HeadResult {
+  HeadConfig head;  ///< origin at the rearmost LED, axes as the wall's while still
+  double rms_px = 0;
+  double led_sigma_mm = 0;  ///< of an LED's place: what its solutions scatter over the moments
+  int moments = 0;
+};
+
+/// `head` is what is known: its eye, where that is not measured. Throws Error for LEDs that are not
+/// seen, for a wearer who moves while he should stand, and for dots that are no rigid body.
+HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig>& cameras,
+                          const Rigid3& room_from_wall, const HeadConfig& head,
+                          const HeadOptions& options);
+
+}  // namespace vindu
