@@ -36,9 +36,14 @@ Vec3 EyeEase::update(const std::optional<Vec3>& tracked_eye_in_wall, Time now) {
 bool EyeEase::leapt(const Vec3& tracked_eye_in_wall, Time now) {
   const double dt_s = seconds(now - tracked_at_);
   const Vec3 step = tracked_eye_in_wall - tracked_in_wall_;
-  const bool known = started_ && phase_ == Phase::tracked && dt_s > 0;
-  const bool leap = known && (step - dt_s * velocity_m_s_).norm() > options_.leap_m;
-  if (!known || !leap) velocity_m_s_ = known ? Vec3(step / dt_s) : Vec3::Zero();
+  const bool follows = started_ && phase_ == Phase::tracked && dt_s > 0;
+  const bool leap =
+      follows && velocity_m_s_ &&
+      (step - dt_s * *velocity_m_s_).norm() > options_.leap_m + options_.leap_m_s * dt_s;
+  if (follows && !leap)
+    velocity_m_s_ = step / dt_s;
+  else
+    velocity_m_s_.reset();
   tracked_in_wall_ = tracked_eye_in_wall;
   tracked_at_ = now;
   return leap;

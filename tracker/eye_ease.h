@@ -13,9 +13,11 @@ namespace vindu {
 struct EyeEaseOptions {
   Duration held_for = std::chrono::seconds(2);
   Duration to_default_within = std::chrono::milliseconds(1500);
-  double catch_up_m_s = 1.0;  ///< how fast the shown eye closes on a tracked one, beside its motion
-  /// A step from frame to frame that differs by more from the one before was no motion of the eye.
-  double leap_m = 0.012;
+  double catch_up_m_s = 0.7;  ///< how fast the shown eye closes on a tracked one, beside its motion
+  /// A step that differs by more from what the step before lets expect was no motion of the eye:
+  /// so much, and so much for each second of the step.
+  double leap_m = 0.004;
+  double leap_m_s = 0.25;
 };
 
 /// Bound to one thread. Starts at the default eye.
@@ -43,8 +45,8 @@ class EyeEase {
   Vec3 start_;    // lost: the eye that is held; tracked: shown minus tracked at its start
   bool started_ = false;
   Vec3 tracked_in_wall_ = Vec3::Zero();  // the frame before
-  Vec3 velocity_m_s_ = Vec3::Zero();     // from the frame before that
   Time tracked_at_{};
+  std::optional<Vec3> velocity_m_s_;  // from the frame before that; unknown after a leap
 };
 
 }  // namespace vindu

@@ -68,5 +68,28 @@ TEST(EyeEase, is_over_a_short_gap_within_a_few_frames) {
   EXPECT_EQ(show.run(moved, 4 * kFrame), moved);
 }
 
+TEST(EyeEase, follows_a_correction_of_the_tracker_softly_and_to_its_end) {
+  Show show;
+  show.run(kViewer, std::chrono::seconds(3));
+  const Vec3 corrected = kViewer + Vec3(0.1, 0, 0);
+  show.run(corrected, kFrame);
+  EXPECT_LT((show.run(corrected, kFrame) - kViewer).norm(), 0.02);
+  EXPECT_EQ(show.run(corrected, std::chrono::seconds(1)), corrected);
+}
+
+TEST(EyeEase, does_not_lag_behind_a_head_that_sets_off) {
+  EyeEase ease(kDefault);
+  Time now{};
+  double worst_m = 0;
+  for (int i = 0; i < 600; ++i, now += kFrame) {
+    const double t = seconds(now.time_since_epoch());
+    const double moved_s = std::max(0.0, t - 5);
+    const Vec3 eye = kDefault + Vec3(std::min(0.5 * 4 * moved_s * moved_s, 0.8 * moved_s), 0, 0);
+    const Vec3 shown = ease.update(eye, now);
+    if (i > 0) worst_m = std::max(worst_m, (shown - eye).norm());
+  }
+  EXPECT_LT(worst_m, 1e-9);
+}
+
 }  // namespace
 }  // namespace vindu
