@@ -191,6 +191,7 @@ void add_calibrate(CLI::App& parent, Action& chosen) {
   add_calibrate_wand(*app, chosen);
   add_calibrate_wall(*app, chosen);
   add_calibrate_head(*app, chosen);
+  add_calibrate_background(*app, chosen);
   add_calibrate_intrinsics(*app, chosen);
   add_calibrate_extrinsics(*app, chosen);
   app->footer("\nvindu calibrate wand finds cameras and lenses at once, from a waved wand.\n");

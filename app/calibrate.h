@@ -72,5 +72,6 @@ void add_calibrate_intrinsics(CLI::App& calibrate, Action& chosen);
 void add_calibrate_extrinsics(CLI::App& calibrate, Action& chosen);
 void add_calibrate_wall(CLI::App& calibrate, Action& chosen);
 void add_calibrate_head(CLI::App& calibrate, Action& chosen);
+void add_calibrate_background(CLI::App& calibrate, Action& chosen);
 
 }  // namespace vindu::app

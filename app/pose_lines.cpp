@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
+#include <cmath>
 
 #include "app/common.h"
 #include "app/replay_json.h"
-#include "core/error.h"
 
 namespace vindu::app {
 namespace {
@@ -20,24 +21,22 @@ std::optional<double> number(const std::string& text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-LookTarget target_from(const std::string& text) {
-  const Error wrong({"is no target: \"" + text + "\"", "--target",
-                     "write NAME,x,y,z,radius in metres in wall, as in "
-                     "--target globe,0.5,0.2,-1,0.3"});
+/// Empty for a text that is none.
+std::optional<LookTarget> target_from(const std::string& text) {
   std::vector<std::string> parts;
   std::size_t begin = 0;
   for (std::size_t comma; (comma = text.find(',', begin)) != std::string::npos; begin = comma + 1)
     parts.push_back(text.substr(begin, comma - begin));
   parts.push_back(text.substr(begin));
-  if (parts.size() != 5 || parts[0].empty()) throw wrong;
-  double values[4] = {};
-  for (std::size_t i = 0; i < 4; ++i) {
+  if (parts.size() != 5 || parts[0].empty()) return std::nullopt;
+  std::array<double, 4> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
     const auto value = number(parts[i + 1]);
-    if (!value) throw wrong;
+    if (!value) return std::nullopt;
     values[i] = *value;
   }
-  if (!(values[3] > 0)) throw wrong;
-  return {parts[0], {values[0], values[1], values[2]}, values[3]};
+  if (!(values[3] > 0)) return std::nullopt;
+  return LookTarget{parts[0], {values[0], values[1], values[2]}, values[3]};
 }
 
 }  // namespace
@@ -46,12 +45,17 @@ void add_targets(CLI::App& app, std::vector<std::string>& texts) {
   app.add_option("--target", texts,
                  "NAME,x,y,z,radius: a thing in wall, in metres; that somebody looks at it is told")
       ->type_name("TARGET")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) -> std::string {
+        if (target_from(text)) return "";
+        return "\"" + text + "\" is no target; write NAME,x,y,z,radius in metres in wall, as in " +
+               "globe,0.5,0.2,-1,0.3";
+      });
 }
 
 std::vector<LookTarget> targets_from(const std::vector<std::string>& texts) {
   std::vector<LookTarget> targets;
-  for (const std::string& text : texts) targets.push_back(target_from(text));
+  for (const std::string& text : texts) targets.push_back(target_from(text).value());
   return targets;
 }
 

@@ -54,6 +54,12 @@ std::string text_of(const CameraCalibration& found) {
     text += fmt::format("position_m = {}\nrotation_xyzw = [{}, {}, {}, {}]\n",
                         text_of(pose->translation), q.x(), q.y(), q.z(), q.w());
   }
+  if (const auto& masks = found.masks_px) {
+    std::string points;
+    for (const Vec2& mask : *masks)
+      points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", mask.x(), mask.y());
+    text += fmt::format("masks_px = [{}]\n", points);
+  }
   if (found.lag_ms) text += fmt::format("lag_ms = {}\n", *found.lag_ms);
   return text + text_of(found.note);
 }
@@ -109,7 +115,9 @@ void merge(const CameraCalibration& found, std::vector<CameraCalibration>& camer
   if (found.intrinsics) known->intrinsics = found.intrinsics;
   if (found.room_from_camera) known->room_from_camera = found.room_from_camera;
   if (found.lag_ms) known->lag_ms = found.lag_ms;
-  known->note = found.note;
+  if (found.masks_px) known->masks_px = found.masks_px;
+  const bool measured = found.intrinsics || found.room_from_camera || found.lag_ms;
+  if (measured) known->note = found.note;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct CameraCalibration {
   std::optional<Intrinsics> intrinsics;
   std::optional<Rigid3> room_from_camera;
   std::optional<double> lag_ms;
+  std::optional<std::vector<Vec2>> masks_px{};
   CalibrationNote note;
 };
 

@@ -67,7 +67,8 @@ struct CameraConfig {
   VideoConfig video;                                                 ///< where that is the source
   double lag_ms = 0;  ///< from the light to the report's arrival, at the least
   Intrinsics intrinsics;
-  Rigid3 room_from_camera;  ///< camera: +x right, +y down, +z along the optical axis
+  Rigid3 room_from_camera;       ///< camera: +x right, +y down, +z along the optical axis
+  std::vector<Vec2> masks_px{};  ///< raw: reflections and lamps, where no dot is an LED
   bool use_calibration = true;
   std::optional<CalibrationNote> calibration{};  ///< of what was laid over the wall file's values
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/clock.h"
 
@@ -59,6 +60,7 @@ struct Observation {
   Time arrival{};  ///< when the report reached this machine; later than the light by the link's
                    ///< delay
   DotList dots;
+  std::uint16_t buttons = 0;  ///< held down, of a Wiimote: as in wiimote/report.h
 };
 
 }  // namespace vindu

@@ -8,6 +8,8 @@
 namespace vindu {
 namespace {
 
+constexpr std::uint16_t kHome = 0x0080;
+
 bool tracked(const PoseSample& pose) { return pose.level < TrackingLevel::held; }
 
 std::variant<ThesisMethod, JointMethod> method_named(const TrackingConfig& config,
@@ -39,10 +41,14 @@ Tracker::Tracker(std::span<const CameraConfig> cameras, std::span<const HeadConf
     : config_(config),
       heads_(heads.begin(), heads.end()),
       wall_from_room_(inverse(room_from_wall)),
+      buttons_(cameras.size(), 0),
       method_(method_named(config, cameras, heads)) {}
 
 void Tracker::absorb(const Observation& observation) {
   ++counts_.reports;
+  std::uint16_t& before = buttons_[static_cast<std::size_t>(observation.camera)];
+  if (observation.buttons & ~before & kHome) hand_over();
+  before = observation.buttons;
   std::visit([&](auto& method) { method.absorb(observation); }, method_);
 }
 

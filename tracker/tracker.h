@@ -51,7 +51,7 @@ class Tracker {
   /// All heads that were ever found, as of the last frame.
   const std::vector<PoseSample>& poses() const { return poses_; }
 
-  /// Follows the next head that is tracked, from now on.
+  /// Follows the next head that is tracked, from now on. A press of Home on any Wiimote does so.
   void hand_over();
 
   /// The eye of a pose, by its head's tracking offset; metres.
@@ -73,6 +73,7 @@ class Tracker {
   TrackingConfig config_;
   std::vector<HeadConfig> heads_;
   Rigid3 wall_from_room_;
+  std::vector<std::uint16_t> buttons_;  // by camera, of the last report
   std::variant<ThesisMethod, JointMethod> method_;
   std::vector<PoseSample> poses_;
   std::optional<int> following_;

@@ -54,6 +54,7 @@ void apply(const CameraCalibration& found, CameraConfig& camera) {
   camera.intrinsics = found.intrinsics.value_or(camera.intrinsics);
   camera.room_from_camera = found.room_from_camera.value_or(camera.room_from_camera);
   camera.lag_ms = found.lag_ms.value_or(camera.lag_ms);
+  camera.masks_px = found.masks_px.value_or(camera.masks_px);
   camera.calibration = found.note;
 }
 
@@ -78,6 +79,7 @@ std::vector<CameraCalibration> read_camera_calibrations(TomlTable& root) {
     camera.intrinsics = read_intrinsics(table);
     camera.room_from_camera = read_pose(table);
     camera.lag_ms = table.number("lag_ms", {-1000, 1000});
+    camera.masks_px = table.vec2s("masks_px", 0, 64, {-1e4, 1e4});
     camera.note = read_note(table);
     table.finish();
     found.push_back(std::move(camera));

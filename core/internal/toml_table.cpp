@@ -153,29 +153,44 @@ std::optional<Vec3> TomlTable::vec3(const std::string& name, Range range) {
   return Vec3((*values)[0], (*values)[1], (*values)[2]);
 }
 
-std::optional<std::vector<Vec3>> TomlTable::vec3s(const std::string& name, std::size_t least,
-                                                  std::size_t most, Range range) {
+std::optional<std::vector<Eigen::VectorXd>> TomlTable::points(const std::string& name,
+                                                              std::size_t axes, std::size_t least,
+                                                              std::size_t most, Range range) {
   const toml::node* node = find(name);
   if (!node) return std::nullopt;
-  std::vector<Vec3> points;
+  std::vector<Eigen::VectorXd> points;
   const toml::array* array = node->as_array();
   for (std::size_t i = 0; array && i < array->size(); ++i) {
     const toml::array* point = (*array)[i].as_array();
-    if (!point || point->size() != 3) break;
-    const auto part = [&](std::size_t axis) {
+    if (!point || point->size() != axes) break;
+    Eigen::VectorXd value(static_cast<Eigen::Index>(axes));
+    for (std::size_t axis = 0; axis < axes; ++axis) {
       const toml::node& item = (*point)[axis];
-      return item.is_number() ? item.value_or(std::nan("")) : std::nan("");
-    };
-    const Vec3 value(part(0), part(1), part(2));
+      value(static_cast<Eigen::Index>(axis)) =
+          item.is_number() ? item.value_or(std::nan("")) : std::nan("");
+    }
     if (std::ranges::all_of(value, [&](double x) { return within(x, range); }))
-      points.push_back(value);
+      points.push_back(std::move(value));
   }
   if (array && points.size() == array->size() && points.size() >= least && points.size() <= most)
     return points;
   problems_.add(*node, field(name),
                 "is " + show(*node) + "; " + std::to_string(least) + " to " + std::to_string(most) +
-                    " points [x, y, z], each number " + show(range) + ", in brackets are allowed");
+                    " points " + (axes == 3 ? "[x, y, z]" : "[x, y]") + ", each number " +
+                    show(range) + ", in brackets are allowed");
   return std::nullopt;
+}
+
+std::optional<std::vector<Vec3>> TomlTable::vec3s(const std::string& name, std::size_t least,
+                                                  std::size_t most, Range range) {
+  const auto found = points(name, 3, least, most, range);
+  return found ? std::optional(std::vector<Vec3>(found->begin(), found->end())) : std::nullopt;
+}
+
+std::optional<std::vector<Vec2>> TomlTable::vec2s(const std::string& name, std::size_t least,
+                                                  std::size_t most, Range range) {
+  const auto found = points(name, 2, least, most, range);
+  return found ? std::optional(std::vector<Vec2>(found->begin(), found->end())) : std::nullopt;
 }
 
 std::optional<TomlTable> TomlTable::table(const std::string& name) {

@@ -53,6 +53,8 @@ class TomlTable {
   std::optional<Vec3> vec3(const std::string& name, Range range = {-1000, 1000});
   std::optional<std::vector<Vec3>> vec3s(const std::string& name, std::size_t least,
                                          std::size_t most, Range range);
+  std::optional<std::vector<Vec2>> vec2s(const std::string& name, std::size_t least,
+                                         std::size_t most, Range range);
   std::optional<TomlTable> table(const std::string& name);
   std::vector<TomlTable> tables(const std::string& name);
 
@@ -64,6 +66,9 @@ class TomlTable {
 
  private:
   const toml::node* find(const std::string& name);
+  std::optional<std::vector<Eigen::VectorXd>> points(const std::string& name, std::size_t axes,
+                                                     std::size_t least, std::size_t most,
+                                                     Range range);
   std::string field(const std::string& name) const {
     return path_.empty() ? name : path_ + "." + name;
   }

@@ -68,7 +68,10 @@ TEST_F(ReplayCommand, TracksTheSamePosesAsWereTrackedLive) {
   const auto eyes = record_and_track_live("a.vrec");
   const ProcessResult result = vindu({"replay", path("a.vrec"), "--track"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto lines = lines_of(result.out);
+  auto lines = lines_of(result.out);
+  std::erase_if(lines, [](const std::string& line) {
+    return line.find("eye_in_wall_m") == std::string::npos;
+  });
   ASSERT_GT(eyes.size(), 50u);
   ASSERT_EQ(lines.size(), eyes.size());
   for (std::size_t i = 0; i < lines.size(); ++i) ASSERT_THAT(lines[i], HasSubstr(eyes[i])) << i;

@@ -87,5 +87,79 @@ TEST_F(TrackerTest, refuses_a_method_it_does_not_know) {
   EXPECT_THROW(Tracker(cameras_, heads_, room_from_wall_, {.method = "magic"}), Error);
 }
 
+/// Two helmets side by side, the second nearer to the wall; both cameras report 10 ms apart.
+class TwoHeads : public TrackerTest {
+ protected:
+  TwoHeads() {
+    heads_.resize(2);
+    heads_[1].name = "guest";
+    heads_[1].leds_in_head = {
+        {-0.10, 0, -0.09}, {0, 0.06, 0}, {0.10, -0.02, -0.09}, {0.03, -0.06, -0.02}};
+  }
+
+  std::optional<PoseSample> see_both(Tracker& tracker, int frames, std::uint16_t buttons = 0) {
+    const Rigid3 places[] = {{Quat::Identity(), {0.4, 1.65, 2.2}},
+                             {Quat::Identity(), {-0.3, 1.65, 1.6}}};
+    std::optional<PoseSample> followed;
+    for (int i = 0; i < frames; ++i, now_ += milliseconds(10)) {
+      for (int camera = 0; camera < 2; ++camera) {
+        const CameraModel model(cameras_[static_cast<std::size_t>(camera)]);
+        Observation seen{camera, now_, {}, buttons};
+        for (std::size_t head = 0; head < 2; ++head)
+          for (const Vec3& led : heads_[head].leds_in_head) {
+            const auto raw_px = model.project(model.camera_from_room() * (places[head] * led));
+            seen.dots.push_back({raw_px->x(), raw_px->y(), 3});
+          }
+        tracker.absorb(seen);
+      }
+      followed = tracker.track(now_, now_);
+    }
+    return followed;
+  }
+
+  Time now_{};
+};
+
+TEST_F(TwoHeads, are_both_known_and_the_nearer_to_the_wall_is_followed) {
+  Tracker tracker(cameras_, heads_, room_from_wall_);
+  const auto followed = see_both(tracker, 50);
+  ASSERT_TRUE(followed);
+  EXPECT_EQ(followed->object, 1);
+  EXPECT_EQ(tracker.poses().size(), 2u);
+}
+
+TEST_F(TwoHeads, are_followed_by_name_or_the_first_alone) {
+  Tracker by_name(cameras_, heads_, room_from_wall_, {.follow = "head"});
+  EXPECT_EQ(see_both(by_name, 50)->object, 0);
+  Tracker first(cameras_, heads_, room_from_wall_, {.follow = "first"});
+  EXPECT_EQ(see_both(first, 50)->object, 0);
+}
+
+TEST_F(TwoHeads, are_handed_over_by_each_press_of_home) {
+  constexpr std::uint16_t kHome = 0x0080;
+  Tracker tracker(cameras_, heads_, room_from_wall_);
+  ASSERT_EQ(see_both(tracker, 50)->object, 1);
+  EXPECT_EQ(see_both(tracker, 5, kHome)->object, 0);  // held down: once
+  EXPECT_EQ(see_both(tracker, 20)->object, 0);
+  EXPECT_EQ(see_both(tracker, 5, kHome)->object, 1);
+}
+
+TEST_F(TrackerTest, in_a_mode_that_asks_for_more_holds_what_is_less) {
+  heads_.front().leds_in_head = {{-0.09, 0, 0}, {0.09, 0, 0}};  // never more than hybrid
+  Tracker any(cameras_, heads_, room_from_wall_),
+      whole(cameras_, heads_, room_from_wall_, {.mode = "six-dof"});
+  std::optional<PoseSample> pose_of_any, pose_of_whole;
+  for (int i = 0; i < 40; ++i) {
+    const Time now{milliseconds(10 * i)};
+    see_head(any, now);
+    see_head(whole, now);
+    pose_of_any = track(any, now);
+    pose_of_whole = track(whole, now);
+  }
+  ASSERT_TRUE(pose_of_any && pose_of_whole);
+  EXPECT_EQ(pose_of_any->level, TrackingLevel::hybrid);
+  EXPECT_EQ(pose_of_whole->level, TrackingLevel::held);
+}
+
 }  // namespace
 }  // namespace vindu

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string>
+
+#include "core/error.h"
 
 namespace vindu {
 namespace {
@@ -10,7 +13,7 @@ namespace {
 using Milliseconds = std::chrono::milliseconds;
 
 constexpr Duration kKept = Milliseconds(200);        // reports that a late one may come before
-constexpr Duration kTogether = Milliseconds(9);      // apart, two pictures still show one pose
+constexpr Duration kTogether = Milliseconds(17);     // apart, two pictures still show one pose
 constexpr Duration kFresh = Milliseconds(80);        // older reports find no heads
 constexpr Duration kLook = Milliseconds(25);         // between two looks for a lost head
 constexpr Duration kCheck = Milliseconds(50);        // between two checks of a tracked one
@@ -38,11 +41,15 @@ bool same_pose(const Rigid3& a, const Rigid3& b) {
 JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const HeadConfig> heads,
                          const JointOptions& options)
     : options_(options), base_(heads.size()), searches_(heads.size()) {
+  if (cameras.size() > kMaxCameras)
+    throw Error(
+        {"names " + std::to_string(cameras.size()) + " cameras", "[[camera]]", "name 16 at most"});
   association_.turns = !options.position_only;
   for (const CameraConfig& camera : cameras) {
     cameras_.emplace_back(camera);
     eyes_.push_back({.clock = CaptureClock(from_seconds(1e-3 * camera.lag_ms)),
-                     .uses_device_time = camera.source != CameraSource::video});
+                     .uses_device_time = camera.source != CameraSource::video,
+                     .statics = StaticDots({}, camera.masks_px)});
   }
   for (const HeadConfig& head : heads) leds_of_heads_.push_back(head.leds_in_head);
 }
@@ -132,9 +139,7 @@ void JointMethod::judge(Entry& entry) {
   const auto camera = static_cast<std::size_t>(entry.seen.camera);
   Eye& eye = eyes_[camera];
   std::array<bool, kMaxDots> explained{};
-  for (const AcceptedDot& dot : entry.association.accepted) {
-    explained[dot.dot] = true;
-  }
+  for (const AcceptedDot& dot : entry.association.accepted) explained[dot.dot] = true;
   for (std::size_t i = 0; i < entry.seen.dots.size(); ++i) {
     const Vec2 raw_px = position(entry.seen.dots[i]);
     if (explained[i])
@@ -223,6 +228,9 @@ void JointMethod::look_for(std::size_t head, Time now) {
   const Time common = common_time();
   const auto entries = together(common);
   if (entries.empty()) return;
+  const std::size_t newest = *std::ranges::max_element(entries);
+  if (entries_[newest].seen.captured <= search.seen) return;  // the same reports prove nothing new
+  search.seen = entries_[newest].seen.captured;
   std::vector<CameraView> views;
   for (const std::size_t i : entries)
     views.push_back(
@@ -230,7 +238,6 @@ void JointMethod::look_for(std::size_t head, Time now) {
   const auto found = find_head(cameras_, views, leds_of_heads_[head], acquisition_options());
   if (!found) return search.rumour.reset();
   judge_cameras(views, *found);
-  const std::size_t newest = *std::ranges::max_element(entries);
   const auto& tracked = entries_[newest].after[head].state;
   const Rigid3& pose = found->fit.room_from_head;
   if (tracked && same_pose(pose, tracked->room_from_head)) return search.rumour.reset();

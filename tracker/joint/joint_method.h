@@ -37,6 +37,7 @@ struct CameraHealth {
 /// Bound to one thread at a time.
 class JointMethod {
  public:
+  /// Throws Error for more than 16 cameras.
   JointMethod(std::span<const CameraConfig> cameras, std::span<const HeadConfig> heads,
               const JointOptions& options = {});
 
@@ -94,6 +95,7 @@ class JointMethod {
   std::vector<HeadTrack> base_;  // before the first entry
   struct Search {
     Time looked{};
+    Time seen = Time::min();         // capture of the newest report of that look
     std::optional<Rigid3> rumour{};  // where the last look found it, unless it is tracked there
     int confirmed = 0;               // looks in a row that found it there
     HeadTrack last{};                // that was tracked

@@ -53,7 +53,7 @@ std::optional<Observation> WiimoteReader::next(Time until) {
 
 std::optional<Observation> WiimoteReader::observation_of(const WiimoteSample& sample) const {
   if (!sample.data.slots) return std::nullopt;
-  return Observation{camera_, sample.arrival, dots_of(*sample.data.slots)};
+  return Observation{camera_, sample.arrival, dots_of(*sample.data.slots), sample.data.buttons};
 }
 
 }  // namespace vindu

@@ -150,6 +150,12 @@ TEST_F(JointMethodTest, masks_a_lamp_that_stands_beside_the_walker) {
   EXPECT_LT(error_m(method, 0, Time{milliseconds(7990)}, walking(7.99)), 0.006);
 }
 
+TEST_F(JointMethodTest, knows_the_calibrated_background_from_the_first_report_on) {
+  for (CameraConfig& camera : configs_) camera.masks_px = {{512, 600}, {100, 100}};
+  JointMethod method(configs_, heads_);
+  for (const CameraHealth& health : method.health()) EXPECT_EQ(health.masks, 2u);
+}
+
 TEST_F(JointMethodTest, names_the_one_of_three_cameras_that_was_bumped) {
   CameraConfig middle = configs_[0];
   middle.room_from_camera = look_at({0, 2.4, 5.2}, {0, 1.65, 2});

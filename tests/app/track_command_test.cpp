@@ -1,0 +1,101 @@
+// vindu track: the tracking server without a picture, on emulated cameras.
+#include <regex>
+
+#include "tests/app/process.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+using ::testing::Contains;
+using ::testing::ContainsRegex;
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+using TrackCommand = AppTest;
+
+std::vector<std::string> lines_with(const std::string& text, const std::string& part) {
+  std::vector<std::string> lines = lines_of(text);
+  std::erase_if(lines,
+                [&](const std::string& line) { return line.find(part) == std::string::npos; });
+  return lines;
+}
+
+std::int64_t time_ns(const std::string& line) {
+  static const std::regex number(R"re("t_ns":(-?\d+))re");
+  std::smatch match;
+  return std::regex_search(line, match, number) ? std::stoll(match[1]) : 0;
+}
+
+TEST_F(TrackCommand, PrintsPosesAndWhatItLearnsOfTheCamerasAsJson) {
+  const ProcessResult result = vindu({"track", "--json", "--seconds", "3"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto poses = lines_with(result.out, "eye_in_wall_m");
+  ASSERT_GT(poses.size(), 40u);
+  EXPECT_THAT(poses.back(), ContainsRegex(R"("object":0,"level":"six-dof","eye_in_wall_m":\[)"));
+  EXPECT_THAT(poses.back(), ContainsRegex(R"("sigma_m":0\.00)"));
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    EXPECT_GT(time_ns(poses[i]), time_ns(poses[i - 1]));
+  EXPECT_THAT(lines_of(result.out),
+              Contains(HasSubstr(R"("camera":"left","moved":false,"device_time":true)")));
+}
+
+TEST_F(TrackCommand, EndsWithATableWhenNotAskedForJson) {
+  const ProcessResult result = vindu({"track", "--seconds", "2"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("six-dof"));
+  EXPECT_THAT(result.out, HasSubstr("times by its own clock"));
+  EXPECT_THAT(result.out, HasSubstr("gaps: none"));
+}
+
+TEST_F(TrackCommand, TracksByTheThesisMethodToo) {
+  const ProcessResult result =
+      vindu({"track", "--json", "--seconds", "2", "--method", "thesis", "--link", "busy"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(lines_with(result.out, "six-dof"), Contains(HasSubstr(R"("sigma_m":null)")));
+}
+
+TEST_F(TrackCommand, InPositionModeFacesTheWall) {
+  const ProcessResult result = vindu({"track", "--json", "--seconds", "2", "--mode", "position"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto poses = lines_with(result.out, R"("level":"position")");
+  ASSERT_FALSE(poses.empty());
+  EXPECT_THAT(poses, Each(HasSubstr(R"("quaternion_xyzw":[0,0,0,1])")));
+}
+
+TEST_F(TrackCommand, PredictsFromARecordingAsFarAsItIsAskedTo) {
+  ASSERT_EQ(vindu({"record", "--seconds", "3", "--out", path("a.vrec")}).exit_code, 0);
+  const auto poses = [&](const std::string& ms) {
+    const ProcessResult result = vindu({"replay", path("a.vrec"), "--track", "--predict-ms", ms});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return lines_with(result.out, "six-dof");
+  };
+  const auto now = poses("0"), later = poses("40");
+  ASSERT_GT(now.size(), 30u);
+  EXPECT_EQ(time_ns(later.back()) - time_ns(now.back()), 40'000'000);
+  const auto eye_on = [](const std::string& line) { return line.substr(line.find("eye_in")); };
+  EXPECT_NE(eye_on(now.back()), eye_on(later.back()));
+}
+
+TEST_F(TrackCommand, RefusesWhatItCannotDo) {
+  const ProcessResult target = vindu({"track", "--target", "globe,1,2"});
+  EXPECT_EQ(target.exit_code, 2);
+  EXPECT_THAT(target.err, HasSubstr("NAME,x,y,z,radius"));
+  const ProcessResult follow = vindu({"track", "--follow", "nobody"});
+  EXPECT_EQ(follow.exit_code, 1);
+  EXPECT_THAT(follow.err, HasSubstr("nobody"));
+  const std::string wall = write("wall.toml", R"([wall]
+columns = 1
+rows = 1
+width_m = 1
+height_m = 1
+tile_width_px = 64
+tile_height_px = 64
+)");
+  const ProcessResult blind = vindu({"track", "--wall", wall});
+  EXPECT_EQ(blind.exit_code, 1);
+  EXPECT_THAT(blind.err, HasSubstr("[[camera]]"));
+}
+
+}  // namespace
+}  // namespace vindu
