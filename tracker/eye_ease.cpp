@@ -32,21 +32,22 @@ Vec3 EyeEase::update(const std::optional<Vec3>& tracked_eye_in_wall, Time now) {
   return shown_in_wall_;
 }
 
-/// Whether the tracked eye is not where its motion over the last frames would have brought it.
+// Whether the tracked eye is not where its motion over the last frames would have brought it. What
+// is known of that motion follows as fast as people accelerate, and no leap.
 bool EyeEase::leapt(const Vec3& tracked_eye_in_wall, Time now) {
   const double dt_s = seconds(now - tracked_at_);
-  const Vec3 step = tracked_eye_in_wall - tracked_in_wall_;
   const bool follows = started_ && phase_ == Phase::tracked && dt_s > 0;
-  const bool leap =
-      follows && velocity_m_s_ &&
-      (step - dt_s * *velocity_m_s_).norm() > options_.leap_m + options_.leap_m_s * dt_s;
-  if (follows && !leap)
-    velocity_m_s_ = step / dt_s;
-  else
-    velocity_m_s_.reset();
+  const Vec3 surprise = tracked_eye_in_wall - tracked_in_wall_ - dt_s * velocity_m_s_;
   tracked_in_wall_ = tracked_eye_in_wall;
   tracked_at_ = now;
-  return leap;
+  if (!follows) {
+    velocity_m_s_.setZero();
+    return false;
+  }
+  const double change_m_s = surprise.norm() / dt_s;
+  const double largest_m_s = options_.acceleration_m_s2 * dt_s;
+  velocity_m_s_ += std::min(1.0, largest_m_s / std::max(change_m_s, 1e-9)) * surprise / dt_s;
+  return surprise.norm() > options_.leap_m + options_.leap_m_s * dt_s;
 }
 
 // The offset at the start melts; the time it takes grows with it, so that a short gap in the
@@ -60,7 +61,10 @@ Vec3 EyeEase::follow(const Vec3& tracked_eye_in_wall, Time now) {
 
 Vec3 EyeEase::hold_or_return(Time now) {
   const Duration returning = now - since_ - options_.held_for;
-  const double u = seconds(returning) / seconds(options_.to_default_within);
+  const double within_s =
+      std::max(seconds(options_.to_default_within),
+               1.5 * (default_eye_in_wall_ - start_).norm() / options_.to_default_m_s);
+  const double u = seconds(returning) / within_s;
   return start_ + smooth_step(u) * (default_eye_in_wall_ - start_);
 }
 

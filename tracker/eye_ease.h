@@ -12,12 +12,14 @@ namespace vindu {
 
 struct EyeEaseOptions {
   Duration held_for = std::chrono::seconds(2);
-  Duration to_default_within = std::chrono::milliseconds(1500);
+  Duration to_default_within = std::chrono::milliseconds(1500);  ///< longer where that is too fast
+  double to_default_m_s = 1;
   double catch_up_m_s = 0.7;  ///< how fast the shown eye closes on a tracked one, beside its motion
   /// A step that differs by more from what the step before lets expect was no motion of the eye:
   /// so much, and so much for each second of the step.
   double leap_m = 0.004;
   double leap_m_s = 0.25;
+  double acceleration_m_s2 = 10;  ///< of people's heads, at most
 };
 
 /// Bound to one thread. Starts at the default eye.
@@ -46,7 +48,7 @@ class EyeEase {
   bool started_ = false;
   Vec3 tracked_in_wall_ = Vec3::Zero();  // the frame before
   Time tracked_at_{};
-  std::optional<Vec3> velocity_m_s_;  // from the frame before that; unknown after a leap
+  Vec3 velocity_m_s_ = Vec3::Zero();
 };
 
 }  // namespace vindu

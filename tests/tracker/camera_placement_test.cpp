@@ -11,8 +11,9 @@ namespace {
 
 using ::testing::SizeIs;
 
-const HeadConfig kHead = {{{-0.09, 0, 0}, {0.09, 0.02, 0}, {0.02, 0.09, -0.04}, {0, -0.03, 0.07}},
-                          {0, -0.06, -0.08}};
+const HeadConfig kHead = {
+    .leds_in_head = {{-0.09, 0, 0}, {0.09, 0.02, 0}, {0.02, 0.09, -0.04}, {0, -0.03, 0.07}},
+    .eye_in_head = {0, -0.06, -0.08}};
 
 /// LEDs of the back of the head: seen from behind only.
 std::optional<double> seen_from_behind(std::size_t, const Vec3& viewer_in_head) {

@@ -12,9 +12,11 @@ namespace vindu {
 namespace {
 
 const HeadConfig kFourLeds = {
-    {{-0.09, 0, 0}, {0.09, 0.02, 0}, {0.02, 0.09, -0.04}, {0, -0.03, 0.07}}, {0, -0.06, -0.08}};
-const HeadConfig kThreeLeds = {{{-0.09, 0, 0}, {0.09, 0.02, 0}, {0.02, 0.09, -0.04}},
-                               {0, -0.06, -0.08}};
+    .leds_in_head = {{-0.09, 0, 0}, {0.09, 0.02, 0}, {0.02, 0.09, -0.04}, {0, -0.03, 0.07}},
+    .eye_in_head = {0, -0.06, -0.08}};
+const HeadConfig kThreeLeds = {
+    .leds_in_head = {{-0.09, 0, 0}, {0.09, 0.02, 0}, {0.02, 0.09, -0.04}},
+    .eye_in_head = {0, -0.06, -0.08}};
 
 DotNoise all_seen(double sigma_px = rounded_noise_px(kDotNoise_px)) {
   return [sigma_px](std::size_t, const Vec3&) { return std::optional(sigma_px); };
@@ -199,7 +201,8 @@ TEST(Coverage, EachFurtherDotLowersTheBound) {
 }
 
 TEST(Coverage, LedsOnALineLeaveTheirAxisToMemory) {
-  const HeadConfig line = {{{-0.09, 0, 0}, {0, 0, 0}, {0.05, 0, 0}, {0.09, 0, 0}}, {0, -0.1, -0.1}};
+  const HeadConfig line = {.leds_in_head = {{-0.09, 0, 0}, {0, 0, 0}, {0.05, 0, 0}, {0.09, 0, 0}},
+                           .eye_in_head = {0, -0.1, -0.1}};
   const PoseBound found = bound(pair(3, 2), line, all_seen(), head_at({0, 0, 0}, 0, line));
   EXPECT_EQ(found.level, TrackingLevel::hybrid);
   EXPECT_GT(found.rotation_rad, 0.9 * kRememberedRotation_rad);

@@ -104,7 +104,7 @@ class TwoHeads : public TrackerTest {
     for (int i = 0; i < frames; ++i, now_ += milliseconds(10)) {
       for (int camera = 0; camera < 2; ++camera) {
         const CameraModel model(cameras_[static_cast<std::size_t>(camera)]);
-        Observation seen{camera, now_, {}, buttons};
+        Observation seen{camera, now_, {}, camera == 0 ? buttons : std::uint16_t{0}};
         for (std::size_t head = 0; head < 2; ++head)
           for (const Vec3& led : heads_[head].leds_in_head) {
             const auto raw_px = model.project(model.camera_from_room() * (places[head] * led));

@@ -50,7 +50,7 @@ struct AssociationOptions {
   double weak = 3;
   /// A head may walk along the ray of the only camera that sees it.
   double least_alone_m2_s5 = 3;
-  double lost_at_rad = radians(35);
+  double lost_at_rad = radians(100);
   bool turns = true;  ///< false: the rotation is given, not estimated
   bool may_widen =
       true;  ///< dots that stand aside all alike make the head doubtful, not the camera
