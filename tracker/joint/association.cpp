@@ -62,11 +62,6 @@ double distance2(const Eigen::Matrix2d& covariance_px2, const Vec2& residual_px)
   return residual_px.dot(covariance_px2.inverse() * residual_px);
 }
 
-bool in_picture(const Vec2& raw_px) {
-  return raw_px.x() >= 0 && raw_px.x() < kWiimoteWidth_px && raw_px.y() >= 0 &&
-         raw_px.y() < kWiimoteHeight_px;
-}
-
 Vec2 position(const Dot& dot) { return {dot.x_px, dot.y_px}; }
 
 std::vector<Column> columns_of(const CameraModel& camera,
@@ -193,9 +188,6 @@ Association associate(const TimedDots& seen, const CameraModel& camera,
                       const AssociationOptions& options) {
   for (HeadTrack& head : heads) move_on(head, seen.captured, options);
   Association result;
-  for (const Column& column : columns_of(camera, leds_of_heads, heads))
-    if (in_picture(column.expected.raw_px)) ++result.expected;
-  if (result.expected == 0) return result;
   result.accepted = correct_by(seen, camera, leds_of_heads, heads, options);
   result.widened = options.may_widen && seen.dots.size() >= 2 &&
                    widen_displaced(seen, camera, leds_of_heads, heads, result.accepted);

@@ -67,7 +67,7 @@ struct AcceptedDot {
 
 struct Association {
   std::vector<AcceptedDot> accepted;
-  int expected = 0;      ///< LEDs of tracked heads that are before this camera and in its picture
+
   bool widened = false;  ///< nothing fitted until the head was doubted
 };
 
