@@ -106,7 +106,7 @@ void draw_marks(Diagram& diagram, const Vec2& left_px, const Line& line) {
 void draw_panel(Diagram& diagram, const Vec2& corner_px, const std::string& title,
                 const std::vector<Line>& lines) {
   diagram.text(corner_px - Vec2(0, 52), title, {18, kInk, true});
-  diagram.text(corner_px + Vec2(kNames_px - 14, -22), "eye, rms, mm", {15, kDim},
+  diagram.text(corner_px + Vec2(kNames_px - 30, -22), "eye, rms, mm", {15, kDim},
                Diagram::Align::right);
   const Vec2 scale_px = corner_px + Vec2(kNames_px, 0);
   double y_px = corner_px.y();
