@@ -14,8 +14,8 @@
 namespace vindu::app {
 
 struct AccuracyOptions {
-  int poses = 1000;      ///< of each row of single frames
-  double length_s = 15;  ///< of each moving row
+  int poses = 800;       ///< of each row of single frames
+  double length_s = 12;  ///< of each moving row
   std::uint64_t seed = 1;
   bool quick = false;  ///< few rows, to see that all is well
 };

@@ -138,7 +138,7 @@ void draw_legend(Diagram& diagram, Vec2 at_px) {
   diagram.disc(at_px, 5, kThesis);
   name("the thesis' method, three LEDs, two cameras");
   draw_best(diagram, at_px);
-  name("left: the Cramér-Rao bound; right: the best of seven fixed process noises");
+  name("left: the Cramér-Rao bound; right: the best of six fixed process noises");
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kPlaces = 8;  // of a still head
 
-// Factors of four, from less than the schedule has at rest to more than it has at 5 m/s; the
-// turning part in its usual proportion.
-const std::vector<MotionNoise> kFixedNoises = {{0.02, 0.08}, {0.08, 0.32}, {0.3, 1.2}, {1.2, 4.8},
-                                               {5, 20},      {20, 80},     {80, 320}};
+// Factors of five, from what the schedule has at rest to more than it has at 10 m/s; the turning
+// part in its usual proportion.
+const std::vector<MotionNoise> kFixedNoises = {{0.02, 0.08}, {0.1, 0.4}, {0.5, 2},
+                                               {2.5, 10},    {12, 48},   {60, 240}};
 
 LinkOptions link_options(Link link) {
   if (link == Link::good) return {};
