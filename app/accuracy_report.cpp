@@ -32,7 +32,7 @@ std::string frame_line(const FrameRow& row) {
 std::string moving_line(const MovingRow& row) {
   const TrialErrors &ours = row.study.joint, &fixed = row.study.best_fixed;
   std::string line = fmt::format(
-      "{:<60}{:>6.1f}{:>7.1f}{:>6.2f}{:>7} |{:>6g}{:>6.1f}{:>6.2f} |", name_of(row),
+      "{:<65}{:>6.1f}{:>7.1f}{:>6.2f}{:>7} |{:>6g}{:>6.1f}{:>6.2f} |", name_of(row),
       1e3 * ours.eye_rms_m, 1e3 * ours.eye_p95_m, degrees(ours.turn_rms_rad), percent(ours.found),
       row.study.best_noise.move_m2_s5, 1e3 * fixed.eye_rms_m, row.over_fixed());
   if (!row.thesis) return line + "\n";
@@ -54,7 +54,7 @@ std::string frame_table(const Accuracy& accuracy, const AccuracyOptions& options
 std::string moving_table(const Accuracy& accuracy, const AccuracyOptions& options) {
   std::string table = fmt::format(
       "Moving, 3 m, base 2 m: {:g} s a row; the eye when the light leaves the wall, in mm\n"
-      "{:<60}{:>6}{:>7}{:>6}{:>7} |{:>6}{:>6}{:>6} |{:>6}{:>6}{:>7}{:>6}\n",
+      "{:<65}{:>6}{:>7}{:>6}{:>7} |{:>6}{:>6}{:>6} |{:>6}{:>6}{:>7}{:>6}\n",
       options.length_s, "", "eye", "p95", "rot", "found%", "noise", "fixed", "ratio", "thesis",
       "rot", "found%", "ratio");
   for (const MovingRow& row : accuracy.moving) table += moving_line(row);
