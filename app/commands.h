@@ -20,5 +20,6 @@ void add_calibrate(CLI::App& parent, Action& chosen);
 void add_replay(CLI::App& parent, Action& chosen);
 void add_track(CLI::App& parent, Action& chosen);
 void add_plan(CLI::App& parent, Action& chosen);
+void add_measure(CLI::App& parent, Action& chosen);
 
 }  // namespace vindu::app

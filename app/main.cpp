@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   vindu::app::add_replay(app, chosen);
   vindu::app::add_track(app, chosen);
   vindu::app::add_plan(app, chosen);
+  vindu::app::add_measure(app, chosen);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

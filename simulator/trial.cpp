@@ -95,17 +95,27 @@ std::vector<std::vector<TrialFrame>> run_trial(const TrialOptions& options,
   std::vector<Tracker> trackers;
   for (const TrackingConfig& method : methods)
     trackers.emplace_back(options.cameras, std::vector{options.head}, Rigid3{}, method);
-  std::vector<std::vector<TrialFrame>> frames(methods.size());
+  std::vector<JointMethod> filters;
+  for (const MotionNoise& noise : options.fixed_noises)
+    filters.emplace_back(options.cameras, std::vector{options.head},
+                         JointOptions{.fixed_noise = noise});
+  std::vector<std::vector<TrialFrame>> frames(methods.size() + filters.size());
   const Time begin = Time{} + options.warm_up, end = begin + options.length;
   for (std::int64_t tick = 1; clock.now() < end; ++tick) {
     clock.sleep_until(Time{from_seconds(static_cast<double>(tick) / options.rate_hz)});
     const Time now = clock.now(), photon = now + options.photon_lag;
     cameras.drain(now, [&](const Observation& seen) {
       for (Tracker& tracker : trackers) tracker.absorb(seen);
+      for (JointMethod& filter : filters) filter.absorb(seen);
     });
     for (std::size_t i = 0; i < trackers.size(); ++i) {
       const auto pose = trackers[i].track(now, photon);
       if (now >= begin) frames[i].push_back(judged(pose, options, photon));
+    }
+    for (std::size_t i = 0; i < filters.size(); ++i) {
+      filters[i].update(now);
+      if (now >= begin)
+        frames[trackers.size() + i].push_back(judged(filters[i].pose(0, photon), options, photon));
     }
   }
   return frames;

@@ -21,6 +21,7 @@ struct TrialOptions {
   Duration length = std::chrono::seconds(20);  ///< that is measured, after the warm-up
   double rate_hz = 60;
   Duration photon_lag = std::chrono::milliseconds(30);  ///< from a tick to its light
+  std::vector<MotionNoise> fixed_noises = {};  ///< joint filters beside the methods, one for each
 };
 
 /// One frame of one method.
@@ -40,7 +41,8 @@ struct TrialErrors {
 };
 TrialErrors errors_of(const std::vector<TrialFrame>& frames);
 
-/// All methods see the same reports; their frames, in the order of `methods`.
+/// All methods see the same reports; their frames, in the order of `methods`, then of the filters
+/// with fixed noise.
 std::vector<std::vector<TrialFrame>> run_trial(const TrialOptions& options,
                                                const std::vector<TrackingConfig>& methods);
 

@@ -111,10 +111,9 @@ Sight Onlooker::look(const HeadConfig& head, const Rigid3& room_from_head,
 
 PoseBound bound_of(const Sight& sight) {
   if (sight.dots >= 4)
-    if (const auto covariance = inverse_of(sight.information)) {
-      const PoseBound bound = with_deviations(TrackingLevel::six_dof, *covariance, sight.towards);
-      if (bound.eye_m <= kKnownEye_m && bound.rotation_rad <= kKnownRotation_rad) return bound;
-    }
+    if (const PoseBound bound = unaided_bound_of(sight);
+        bound.eye_m <= kKnownEye_m && bound.rotation_rad <= kKnownRotation_rad)
+      return bound;
   const TrackingLevel level = level_with_memory(sight);
   if (level > TrackingLevel::position) return {.level = level};
   Mat6 information = sight.information;
@@ -123,6 +122,12 @@ PoseBound bound_of(const Sight& sight) {
   const auto covariance = inverse_of(information);
   return covariance ? with_deviations(level, *covariance, sight.towards)
                     : PoseBound{.level = TrackingLevel::bearing};
+}
+
+PoseBound unaided_bound_of(const Sight& sight) {
+  const auto covariance = inverse_of(sight.information);
+  return covariance ? with_deviations(TrackingLevel::six_dof, *covariance, sight.towards)
+                    : PoseBound{};
 }
 
 std::vector<PoseBound> survey(std::span<const CameraConfig> cameras, const HeadConfig& head,

@@ -78,6 +78,10 @@ struct PoseBound {
 /// - bearing where only one does; lost where none.
 PoseBound bound_of(const Sight& sight);
 
+/// By the dots alone, with nothing remembered and no limits: level six_dof, or lost where they
+/// leave something open.
+PoseBound unaided_bound_of(const Sight& sight);
+
 /// Each pose seen by all cameras.
 std::vector<PoseBound> survey(std::span<const CameraConfig> cameras, const HeadConfig& head,
                               const DotNoise& noise, std::span<const Rigid3> poses);

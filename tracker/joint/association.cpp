@@ -38,7 +38,7 @@ bool well_seen(const HeadTrack& head, Time now, const AssociationOptions& option
 
 void move_on(HeadTrack& head, Time to, const AssociationOptions& options) {
   if (!head.state) return;
-  MotionNoise noise = noise_of_motion(*head.state);
+  MotionNoise noise = options.fixed_noise.value_or(noise_of_motion(*head.state));
   if (!seen_by_two(head, to, options))
     noise.move_m2_s5 = std::max(noise.move_m2_s5, options.least_alone_m2_s5);
   if (!options.turns) noise.turn_rad2_s5 = 0;

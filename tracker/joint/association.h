@@ -51,7 +51,8 @@ struct AssociationOptions {
   /// A head may walk along the ray of the only camera that sees it.
   double least_alone_m2_s5 = 3;
   double lost_at_rad = radians(100);
-  bool turns = true;  ///< false: the rotation is given, not estimated
+  std::optional<MotionNoise> fixed_noise = {};  ///< in place of that which goes with the motion
+  bool turns = true;                            ///< false: the rotation is given, not estimated
   bool may_widen =
       true;  ///< dots that stand aside all alike make the head doubtful, not the camera
 };

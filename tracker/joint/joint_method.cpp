@@ -45,6 +45,7 @@ JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const 
     throw Error(
         {"names " + std::to_string(cameras.size()) + " cameras", "[[camera]]", "name 16 at most"});
   association_.turns = !options.position_only;
+  association_.fixed_noise = options.fixed_noise;
   for (const CameraConfig& camera : cameras) {
     cameras_.emplace_back(camera);
     eyes_.push_back({.clock = CaptureClock(from_seconds(1e-3 * camera.lag_ms)),

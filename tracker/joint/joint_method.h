@@ -23,6 +23,7 @@ struct JointOptions {
   /// position: the heads' rotation is taken as facing the wall; one LED in two cameras is enough.
   bool position_only = false;
   double dot_sigma_px = 0.6;  ///< of a Wiimote's dots: rounding and half a unit of noise
+  std::optional<MotionNoise> fixed_noise = {};  ///< to compare with: a filter that knows one motion
 };
 
 /// What the tracker knows of a camera beside its dots.
