@@ -41,6 +41,11 @@ void move_on(HeadTrack& head, Time to, const AssociationOptions& options) {
   MotionNoise noise = options.fixed_noise.value_or(noise_of_motion(*head.state));
   if (!seen_by_two(head, to, options))
     noise.move_m2_s5 = std::max(noise.move_m2_s5, options.least_alone_m2_s5);
+  if (const double beyond = head.surprise - options.usual_surprise;
+      beyond > 0 && !options.fixed_noise) {
+    noise.move_m2_s5 += beyond * options.by_surprise.move_m2_s5;
+    noise.turn_rad2_s5 += beyond * options.by_surprise.turn_rad2_s5;
+  }
   if (!options.turns) noise.turn_rad2_s5 = 0;
   const auto lately = [&](Time seen) { return to - seen < options.coasts_after; };
   const bool moves = seen_by_two(head, to, options);
@@ -123,6 +128,7 @@ std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& ca
     if (residual_px.norm() > options.farthest_px) return kFar;
     return distance2(column.expected.covariance_px2 + noise_of(seen, column.expected), residual_px);
   };
+  constexpr double kShare = 0.2;  // of one dot in the running mean
   std::vector<AcceptedDot> accepted;
   for (const auto& [i, c] : pairs_of(costs_of(seen, columns, in_sigmas), options.gate)) {
     const auto& [at_head, led, before] = columns[c];
@@ -139,6 +145,7 @@ std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& ca
     correct(*head.state, *expected, position(seen.dots[i]),
             noise_of(seen, *expected, factor * seen.distrust));
     note(head, seen, led);
+    head.surprise += kShare * (0.5 * square - head.surprise);
     accepted.push_back({i, at_head, led, residual, expected->raw_px_s, square});
   }
   return accepted;

@@ -33,6 +33,7 @@ struct HeadTrack {
   Time seen{};  ///< when the last dot of it was captured
   std::array<Time, kMaxCameras> seen_by{};
   std::array<Time, kMaxLeds> led_seen{};
+  double surprise = 1;  ///< running mean of its dots' squared residuals in sigmas, a coordinate
 };
 
 struct AssociationOptions {
@@ -50,6 +51,10 @@ struct AssociationOptions {
   double weak = 3;
   /// A head may walk along the ray of the only camera that sees it.
   double least_alone_m2_s5 = 3;
+  /// A head that surprises is accelerating: what noise is added for each unit of surprise beyond
+  /// the usual.
+  double usual_surprise = 2;
+  MotionNoise by_surprise = {40, 160};
   double lost_at_rad = radians(100);
   std::optional<MotionNoise> fixed_noise = {};  ///< in place of that which goes with the motion
   bool turns = true;                            ///< false: the rotation is given, not estimated

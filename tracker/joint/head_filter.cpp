@@ -150,10 +150,15 @@ void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
 }
 
 void widen(HeadState& state) {
-  constexpr double kDoubt_m = 0.015, kDoubt_rad = radians(2);
-  state.covariance.diagonal().segment<3>(kPosition).array() += kDoubt_m * kDoubt_m;
+  const auto add = [&](int at, double place, double rate, double acceleration) {
+    auto diagonal = state.covariance.diagonal();
+    diagonal.segment<3>(at).array() += place * place;
+    diagonal.segment<3>(at + 3).array() += rate * rate;
+    diagonal.segment<3>(at + 6).array() += acceleration * acceleration;
+  };
+  add(kPosition, 0.015, 0.15, 1.5);
   const bool turns = state.covariance(kRotation, kRotation) > 0;
-  if (turns) state.covariance.diagonal().segment<3>(kRotation).array() += kDoubt_rad * kDoubt_rad;
+  if (turns) add(kRotation, radians(2), 0.5, 5);
 }
 
 HeadState state_of(const PoseFit& fit, Time time) {

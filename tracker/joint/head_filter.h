@@ -64,7 +64,8 @@ std::optional<ExpectedDot> expect_dot(const HeadState& state, const CameraModel&
 void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
              const Eigen::Matrix2d& noise_px2);
 
-/// For a head that is found not to be where it should: some centimetres and degrees of doubt.
+/// For a head that is found not to be where it should, or set off unforeseen: centimetres and
+/// degrees of doubt, and of its motion.
 void widen(HeadState& state);
 
 /// The head at rest where a fit found it: velocities unknown, as fast as people move.
