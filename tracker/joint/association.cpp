@@ -42,7 +42,7 @@ void move_on(HeadTrack& head, Time to, const AssociationOptions& options) {
   if (!seen_by_two(head, to, options))
     noise.move_m2_s5 = std::max(noise.move_m2_s5, options.least_alone_m2_s5);
   if (const double beyond = head.surprise - options.usual_surprise;
-      beyond > 0 && !options.fixed_noise) {
+      beyond > 0 && !options.fixed_noise && well_seen(head, to, options)) {
     noise.move_m2_s5 += beyond * options.by_surprise.move_m2_s5;
     noise.turn_rad2_s5 += beyond * options.by_surprise.turn_rad2_s5;
   }
@@ -173,7 +173,7 @@ bool displaced(const TimedDots& seen, const std::vector<Column>& columns) {
 /// less well than it seemed.
 bool widen_displaced(const TimedDots& seen, const CameraModel& camera,
                      std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
-                     const std::vector<AcceptedDot>& accepted) {
+                     const std::vector<AcceptedDot>& accepted, const AssociationOptions& options) {
   bool any = false;
   const std::vector<Column> columns = columns_of(camera, leds_of_heads, heads);
   for (std::size_t head = 0; head < heads.size(); ++head) {
@@ -182,7 +182,7 @@ bool widen_displaced(const TimedDots& seen, const CameraModel& camera,
     std::vector<Column> own;
     std::ranges::copy_if(columns, std::back_inserter(own), of_head);
     if (!displaced(seen, own)) continue;
-    widen(*heads[head].state);
+    widen(*heads[head].state, well_seen(heads[head], seen.captured, options));
     any = true;
   }
   return any;
@@ -197,7 +197,7 @@ Association associate(const TimedDots& seen, const CameraModel& camera,
   Association result;
   result.accepted = correct_by(seen, camera, leds_of_heads, heads, options);
   result.widened = options.may_widen && seen.dots.size() >= 2 &&
-                   widen_displaced(seen, camera, leds_of_heads, heads, result.accepted);
+                   widen_displaced(seen, camera, leds_of_heads, heads, result.accepted, options);
   if (result.widened) result.accepted = correct_by(seen, camera, leds_of_heads, heads, options);
   return result;
 }

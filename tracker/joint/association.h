@@ -51,10 +51,10 @@ struct AssociationOptions {
   double weak = 3;
   /// A head may walk along the ray of the only camera that sees it.
   double least_alone_m2_s5 = 3;
-  /// A head that surprises is accelerating: what noise is added for each unit of surprise beyond
-  /// the usual.
+  /// A head that surprises though it is well seen is accelerating: what noise is added for each
+  /// unit of surprise beyond the usual.
   double usual_surprise = 2;
-  MotionNoise by_surprise = {40, 160};
+  MotionNoise by_surprise = {10, 40};
   double lost_at_rad = radians(100);
   std::optional<MotionNoise> fixed_noise = {};  ///< in place of that which goes with the motion
   bool turns = true;                            ///< false: the rotation is given, not estimated

@@ -149,10 +149,11 @@ void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
   state.turn.acceleration += step.segment<3>(kTurning + 3);
 }
 
-void widen(HeadState& state) {
+void widen(HeadState& state, bool motion_too) {
   const auto add = [&](int at, double place, double rate, double acceleration) {
     auto diagonal = state.covariance.diagonal();
     diagonal.segment<3>(at).array() += place * place;
+    if (!motion_too) return;
     diagonal.segment<3>(at + 3).array() += rate * rate;
     diagonal.segment<3>(at + 6).array() += acceleration * acceleration;
   };

@@ -65,8 +65,8 @@ void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
              const Eigen::Matrix2d& noise_px2);
 
 /// For a head that is found not to be where it should, or set off unforeseen: centimetres and
-/// degrees of doubt, and of its motion.
-void widen(HeadState& state);
+/// degrees of doubt, and of its motion where that is asked for.
+void widen(HeadState& state, bool motion_too);
 
 /// The head at rest where a fit found it: velocities unknown, as fast as people move.
 HeadState state_of(const PoseFit& fit, Time time);

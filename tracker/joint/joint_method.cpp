@@ -12,12 +12,13 @@ namespace {
 
 using Milliseconds = std::chrono::milliseconds;
 
-constexpr Duration kKept = Milliseconds(200);        // reports that a late one may come before
-constexpr Duration kTogether = Milliseconds(17);     // apart, two pictures still show one pose
-constexpr Duration kFresh = Milliseconds(80);        // older reports find no heads
-constexpr Duration kLook = Milliseconds(25);         // between two looks for a lost head
-constexpr Duration kCheck = Milliseconds(50);        // between two checks of a tracked one
-constexpr Duration kLevelWindow = Milliseconds(35);  // that the level is judged by
+constexpr Duration kKept = Milliseconds(200);         // reports that a late one may come before
+constexpr Duration kTogether = Milliseconds(17);      // apart, two pictures still show one pose
+constexpr Duration kFresh = Milliseconds(80);         // older reports find no heads
+constexpr Duration kLook = Milliseconds(25);          // between two looks for a lost head
+constexpr Duration kDoubt = Milliseconds(50);         // between two checks of a doubtful one
+constexpr Duration kCheck = std::chrono::seconds(2);  // and of one that explains all dots
+constexpr Duration kLevelWindow = Milliseconds(35);   // that the level is judged by
 constexpr Duration kHeld = Milliseconds(250);
 constexpr Duration kLost = std::chrono::seconds(2);
 constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
@@ -219,12 +220,28 @@ AcquisitionOptions JointMethod::acquisition_options() const {
   return options;
 }
 
+/// Whether some camera's newest report has dots that nobody explains, or the head surprises.
+bool JointMethod::doubtful(std::size_t head) const {
+  constexpr double kSurprising = 3;
+  if (newest_heads()[head].surprise > kSurprising) return true;
+  std::vector<bool> done(cameras_.size(), false);
+  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
+    if (done[static_cast<std::size_t>(entry->seen.camera)]) continue;
+    done[static_cast<std::size_t>(entry->seen.camera)] = true;
+    const auto unmasked = static_cast<std::ptrdiff_t>(entry->seen.dots.size()) -
+                          std::ranges::count(entry->seen.masked, true);
+    if (std::ssize(entry->association.accepted) < unmasked) return true;
+  }
+  return false;
+}
+
 // Looks in a row that find a head in one place are right: false dots do not repeat themselves. One
 // that is tracked is looked for as well.
 void JointMethod::look_for(std::size_t head, Time now) {
   if (entries_.empty()) return;
   Search& search = searches_[head];
-  if (now - search.looked < (newest_heads()[head].state ? kCheck : kLook)) return;
+  const bool tracked_now = newest_heads()[head].state.has_value();
+  if (now - search.looked < (!tracked_now ? kLook : doubtful(head) ? kDoubt : kCheck)) return;
   search.looked = now;
   const Time common = common_time();
   const auto entries = together(common);

@@ -81,6 +81,7 @@ class JointMethod {
   std::vector<std::size_t> together(Time common) const;
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart) const;
   AcquisitionOptions acquisition_options() const;
+  bool doubtful(std::size_t head) const;
   void bear(std::size_t head, const FoundHead& found, std::size_t entry);
   TrackingLevel level_now(std::size_t head) const;
   void judge_cameras(const std::vector<CameraView>& views, const FoundHead& found);
