@@ -10,14 +10,7 @@
 namespace vindu::app {
 namespace {
 
-constexpr Rgba8 kPaper{255, 255, 255, 255};
-constexpr Rgba8 kInk{30, 34, 40, 255};
-constexpr Rgba8 kDim{105, 112, 122, 255};
-constexpr Rgba8 kGrid{222, 226, 230, 255};
 constexpr Rgba8 kBand{246, 247, 249, 255};
-// Okabe & Ito's colours (Color Universal Design, 2008).
-constexpr Rgba8 kOurs{0, 114, 178, 255};
-constexpr Rgba8 kThesis{213, 94, 0, 255};
 constexpr Rgba8 kBest{60, 60, 60, 255};
 
 constexpr int kMargin_px = 36;
@@ -83,7 +76,7 @@ double offset_px(double error_m) {
 void draw_scale(Diagram& diagram, const Vec2& corner_px, int height_px) {
   for (const double mm : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
     const double x_px = corner_px.x() + offset_px(1e-3 * mm);
-    diagram.line({x_px, corner_px.y()}, {x_px, corner_px.y() + height_px}, 1, kGrid);
+    diagram.line({x_px, corner_px.y()}, {x_px, corner_px.y() + height_px}, 1, kFaint);
     diagram.text({x_px, corner_px.y() - 22}, fmt::format("{:g}", mm), {15, kDim},
                  Diagram::Align::middle);
   }
@@ -97,9 +90,9 @@ void draw_marks(Diagram& diagram, const Vec2& left_px, const Line& line) {
   const auto at = [&](double error_m) -> Vec2 { return left_px + Vec2(offset_px(error_m), 0); };
   if (line.thesis_m) {
     diagram.line(at(line.ours_m), at(*line.thesis_m), 1.5, {213, 94, 0, 90});
-    diagram.disc(at(*line.thesis_m), 5, kThesis);
+    diagram.disc(at(*line.thesis_m), 5, kVermilion);
   }
-  diagram.disc(at(line.ours_m), 5.5, kOurs);
+  diagram.disc(at(line.ours_m), 5.5, kBlue);
   draw_best(diagram, at(line.best_m));
 }
 
@@ -133,9 +126,9 @@ void draw_legend(Diagram& diagram, Vec2 at_px) {
     diagram.text(at_px + Vec2(14, -9), words, {16, kInk});
     at_px.x() += 40 + text_width_px(words, {16, kInk});
   };
-  diagram.disc(at_px, 5.5, kOurs);
+  diagram.disc(at_px, 5.5, kBlue);
   name("Vindu");
-  diagram.disc(at_px, 5, kThesis);
+  diagram.disc(at_px, 5, kVermilion);
   name("the thesis' method, three LEDs, two cameras");
   draw_best(diagram, at_px);
   name("left: the Cramér-Rao bound; right: the best of six fixed process noises");

@@ -123,10 +123,10 @@ void add_calibrate_options(CLI::App& app, CalibrateOptions& options) {
       ->type_name("FILE");
   app.add_option("--from", options.from, "A recording, instead of live cameras")->type_name("FILE");
   app.add_option("--seconds", options.seconds, "Length (default: until Ctrl-C)")
-      ->check(CLI::Range(0.5, 1e6));
+      ->check(between(0.5, 1e6));
   app.add_option("--seed", options.seed, "Of emulated cameras, and of where they truly stand");
   app.add_option("--noise-px", options.noise_px, "Of emulated cameras (default: 0.6)")
-      ->check(CLI::Range(0.0, 20.0));
+      ->check(between(0.0, 20.0));
   app.add_flag("--json", options.json, "Figures as JSON");
   app.add_flag("--dry-run", options.dry_run, "Write nothing");
 }

@@ -132,7 +132,7 @@ void add_calibrate_head(CLI::App& calibrate, Action& chosen) {
       ->check(CLI::Range(3, 4));
   app->add_option("--still-s", command->head.still_s,
                   "So long the wearer stands still at first, facing the wall (default: 2)")
-      ->check(CLI::Range(0.5, 60.0));
+      ->check(between(0.5, 60.0));
   add_vec3(*app, "--eye-at", command->eye_in_wall,
            "Where the point between the eyes is meanwhile, in wall (default: eye_m stays)");
   app->footer(

@@ -173,7 +173,7 @@ void add_rig_options(CLI::App& app, RigCommand& command) {
                  "From LED to LED, across and up (default: 91.44, the thesis' rig)")
       ->delimiter(',')
       ->expected(1, 2)
-      ->check(CLI::Range(5.0, 5000.0))
+      ->check(between(5.0, 5000.0))
       ->type_name("A[,B]");
 }
 
@@ -187,7 +187,7 @@ void add_calibrate_intrinsics(CLI::App& calibrate, Action& chosen) {
   app->add_option("--camera", command->camera, "Its name (default: the wall file's first)");
   app->add_option("--views", command->lens.views, "Default: 30")->check(CLI::Range(10, 300));
   app->add_option("--interval-s", command->lens.interval_s, "Between views (default: 0.5)")
-      ->check(CLI::Range(0.05, 60.0));
+      ->check(between(0.05, 60.0));
   app->add_option("--picture", command->picture, "What the camera has seen of its view")
       ->type_name("FILE.png");
   app->footer(
@@ -206,7 +206,7 @@ void add_calibrate_extrinsics(CLI::App& calibrate, Action& chosen) {
   add_vec3(*app, "--rig-at", command->rig_in_room, "The rig's middle in room, metres");
   app->add_option("--rig-heading-deg", command->rig_heading_deg,
                   "Its turn about the vertical; 0: its LEDs face away from the wall")
-      ->check(CLI::Range(-360.0, 360.0));
+      ->check(between(-360.0, 360.0));
   app->footer(
       "\nExample:\n"
       "  vindu calibrate extrinsics --wall wall.toml --rig-at 0,1.5,1.5 --spacing-mm 300\n");

@@ -20,16 +20,11 @@ struct WallCommand {
   int targets = 5;
 };
 
-/// Emulated: held to each point for 2 s, then moved on in 1 s.
 LedBody touching_led(const std::vector<WallTarget>& targets, const Rigid3& room_from_wall) {
-  return bare_leds({Vec3::Zero()}, [=](Time time) {
-    const double t = std::max(0.0, seconds(time.time_since_epoch()) / 3);
-    const auto from = std::min(static_cast<std::size_t>(t), targets.size() - 1);
-    const auto to = std::min(from + 1, targets.size() - 1);
-    const double share = std::clamp(3 * (t - static_cast<double>(from)) - 2, 0.0, 1.0);
-    return Rigid3{Quat::Identity(), room_from_wall * ((1 - share) * targets[from].x_in_wall +
-                                                      share * targets[to].x_in_wall)};
-  });
+  std::vector<Vec3> points_in_room;
+  for (const WallTarget& target : targets)
+    points_in_room.push_back(room_from_wall * target.x_in_wall);
+  return touching(std::move(points_in_room));
 }
 
 std::string progress_of(const Capture& so_far, const Site& site,

@@ -59,6 +59,18 @@ CLI::Option* add_vec3(CLI::App& app, const std::string& name, std::optional<Vec3
       ->type_name("X,Y,Z");
 }
 
+CLI::Validator between(double least, double largest) {
+  const std::string limits = fmt::format("{} to {}", least, largest);
+  return CLI::Validator(
+      [=](const std::string& text) {
+        double value = 0;
+        const bool good =
+            CLI::detail::lexical_cast(text, value) && value >= least && value <= largest;
+        return good ? std::string() : "\"" + text + "\" is not a number from " + limits;
+      },
+      limits);
+}
+
 CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value) {
   return app
       .add_option_function<std::string>(

@@ -17,6 +17,9 @@ namespace vindu::app {
 CLI::Option* add_vec3(CLI::App& app, const std::string& name, std::optional<Vec3>& value,
                       const std::string& help);
 
+/// A number within both limits. CLI11's own Range lets "nan" through.
+CLI::Validator between(double least, double largest);
+
 /// --place fit | life-size | as-is
 CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value);
 

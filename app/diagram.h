@@ -11,6 +11,15 @@
 
 namespace vindu::app {
 
+constexpr Rgba8 kPaper{255, 255, 255, 255};
+constexpr Rgba8 kInk{30, 34, 40, 255};
+constexpr Rgba8 kDim{105, 112, 122, 255};
+constexpr Rgba8 kFaint{222, 226, 230, 255};
+// Of Okabe & Ito's colours (Color Universal Design, 2008), which people of every colour vision tell
+// apart.
+constexpr Rgba8 kBlue{0, 114, 178, 255};
+constexpr Rgba8 kVermilion{213, 94, 0, 255};
+
 class Diagram {
  public:
   Diagram(SizePx size, Rgba8 paper) : image_(Image::filled(size.width, size.height, paper)) {

@@ -39,13 +39,6 @@ int run_accuracy(MeasureOptions options) {
   return 0;
 }
 
-/// CLI::Range lets "nan" through.
-std::string is_length(const std::string& text) {
-  double value_s = 0;
-  const bool good = CLI::detail::lexical_cast(text, value_s) && value_s >= 1 && value_s <= 3600;
-  return good ? "" : "\"" + text + "\" is not between 1 and 3600";
-}
-
 void add_accuracy(CLI::App& measure, Action& chosen) {
   auto options = std::make_shared<MeasureOptions>();
   AccuracyOptions& study = options->accuracy;
@@ -55,7 +48,7 @@ void add_accuracy(CLI::App& measure, Action& chosen) {
                            ->check(CLI::Range(10, 1000000))
                            ->capture_default_str();
   CLI::Option* length = app->add_option("--seconds", study.length_s, "Of each row that moves")
-                            ->check(is_length)
+                            ->check(between(1.0, 3600.0))
                             ->capture_default_str();
   app->add_option("--seed", study.seed, "Of poses, motions, noise and links")
       ->capture_default_str();

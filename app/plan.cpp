@@ -292,11 +292,11 @@ void add_plan(CLI::App& parent, Action& chosen) {
   add_numbers(*app, "--height", options->heights, 1, 8,
               "Of the eyes above the floor (default: 0.1 m below and above the default eye)");
   app->add_option("--yaw-deg", options->yaw_deg, "How far heads turn to either side")
-      ->check(CLI::Range(0.0, 180.0));
+      ->check(between(0.0, 180.0));
   app->add_option("--good-mm", options->good_mm, "Error of the eye that still counts as covered")
-      ->check(CLI::Range(0.1, 1000.0));
+      ->check(between(0.1, 1000.0));
   app->add_option("--noise-px", options->noise_px, "Of a dot, before rounding to whole units")
-      ->check(CLI::Range(0.0, 20.0));
+      ->check(between(0.0, 20.0));
   app->add_option("--propose", options->propose, "Places for so many cameras")
       ->check(CLI::Range(1, 16))
       ->type_name("N");
@@ -304,9 +304,9 @@ void add_plan(CLI::App& parent, Action& chosen) {
       *app, "--room", options->room, 4, 4,
       "Where the rails run, of the proposal (default: 1.2 m aside of the area, 2 m behind)");
   app->add_option("--rail-height", options->rail_height_m, "Of the rails, metres")
-      ->check(CLI::Range(0.1, 20.0));
+      ->check(between(0.1, 20.0));
   app->add_option("--ceiling", options->ceiling_m, "Height of the upper corners, metres")
-      ->check(CLI::Range(0.1, 20.0));
+      ->check(between(0.1, 20.0));
   app->add_option("--out", options->out, "Picture (default: out/plan.png)")->type_name("FILE.png");
   app->add_flag("--json", options->json, "Figures as JSON");
   app->footer(

@@ -11,15 +11,9 @@
 namespace vindu::app {
 namespace {
 
-constexpr Rgba8 kPaper{255, 255, 255, 255};
-constexpr Rgba8 kInk{30, 34, 40, 255};
-constexpr Rgba8 kDim{105, 112, 122, 255};
-constexpr Rgba8 kFaint{222, 226, 230, 255};
 constexpr Rgba8 kFloor{244, 245, 247, 255};
-constexpr Rgba8 kWall{30, 34, 40, 255};
 constexpr Rgba8 kSight{213, 94, 0, 30};
 constexpr Rgba8 kSightEdge{213, 94, 0, 150};
-constexpr Rgba8 kCamera{213, 94, 0, 255};
 constexpr Rgba8 kNowhere{226, 226, 226, 255};
 
 constexpr int kMargin_px = 36;
@@ -35,7 +29,7 @@ constexpr double kSightLength_m = 6;
 Rgba8 colour_of(TrackingLevel level) {
   switch (level) {
     case TrackingLevel::six_dof:
-      return {0, 114, 178, 255};
+      return kBlue;
     case TrackingLevel::hybrid:
       return {86, 180, 233, 255};
     case TrackingLevel::position:
@@ -168,7 +162,7 @@ void draw_cameras(Panel& panel, const Study& study, const Flat& flat, bool above
       panel.diagram().line(place, panel.at(flat(end)), 1.2, kSightEdge);
   }
   for (const CameraConfig& camera : study.cameras)
-    panel.diagram().disc(panel.at(flat(camera.room_from_camera.translation)), 6, kCamera);
+    panel.diagram().disc(panel.at(flat(camera.room_from_camera.translation)), 6, kVermilion);
 }
 
 void draw_wall(Panel& panel, const Wall& wall, const Flat& flat) {
@@ -177,8 +171,8 @@ void draw_wall(Panel& panel, const Wall& wall, const Flat& flat) {
     const auto at = [&](const Vec3& x_in_wall) {
       return panel.at(flat(wall.room_from_wall * x_in_wall));
     };
-    panel.diagram().line(at(corners.lower_left_in_wall), at(corners.lower_right_in_wall), 6, kWall);
-    panel.diagram().line(at(corners.lower_left_in_wall), at(corners.upper_left_in_wall), 6, kWall);
+    panel.diagram().line(at(corners.lower_left_in_wall), at(corners.lower_right_in_wall), 6, kInk);
+    panel.diagram().line(at(corners.lower_left_in_wall), at(corners.upper_left_in_wall), 6, kInk);
   }
 }
 

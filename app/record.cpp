@@ -150,13 +150,13 @@ void add_record(CLI::App& parent, Action& chosen) {
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
   app->add_option("--seconds", command->seconds, "Length (default: until Ctrl-C)")
-      ->check(CLI::Range(0.05, 1e8));
+      ->check(between(0.05, 1e8));
   app->add_option("--out", command->out, "File (default: recording-DATE-TIME.vrec)")
       ->type_name("FILE");
   app->add_option("--rotate-mb", command->rotate_mb,
                   "Go on in FILE.1, FILE.2 ... when a file has grown to this; 0: never "
                   "(default: 100)")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(between(0.0, 1e6));
   app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
   add_emulation(*app, command->emulation);
   app->footer(

@@ -91,7 +91,7 @@ void add_render(CLI::App& parent, Action& chosen) {
                 "All tiles, the joined wall and the view from the eye (default)")
       ->excludes(tile);
   app->add_option("--scale", options->scale, "Pixels per pixel of the wall")
-      ->check(CLI::Range(0.005, 4.0));
+      ->check(between(0.005, 4.0));
   add_place(*app, options->place);
   app->add_flag("--unlit", options->unlit,
                 "Base colours as they are: no light, tone, sRGB or multisampling");

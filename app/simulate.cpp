@@ -335,13 +335,13 @@ void add_simulate(CLI::App& parent, Action& chosen) {
       ->check(CLI::IsMember({"joint", "thesis"}));
   app->add_option("--seconds", options->seconds,
                   "Length of the run (default: 15; in a window: until it is closed)")
-      ->check(CLI::Range(0.05, 1e6));
+      ->check(between(0.05, 1e6));
   app->add_option("--scale", options->scale,
                   "Pixels per pixel of the wall (default: what this machine draws fluidly)")
-      ->check(CLI::Range(0.005, 4.0));
+      ->check(between(0.005, 4.0));
   app->add_option("--seed", options->seed, "Of the walk and of the cameras' noise");
   app->add_option("--noise-px", options->noise_px, "Noise of the emulated cameras")
-      ->check(CLI::Range(0.0, 20.0));
+      ->check(between(0.0, 20.0));
   add_emulation(*app, options->emulation);
   app->add_option("--clock", options->clock,
                   "manual: time moves by frames alone, so that runs are bit-equal")

@@ -157,7 +157,7 @@ void add_track(CLI::App& parent, Action& chosen) {
                 "A line of JSON for each pose, gesture, and change of a camera");
   app->add_option("--predict-ms", command->predict_ms,
                   "The eye so long after each tick (default: 0)")
-      ->check(CLI::Range(0.0, 1000.0));
+      ->check(between(0.0, 1000.0));
   app->add_option("--method", command->method, "Tracking method (default: the wall file's)")
       ->check(CLI::IsMember({"joint", "thesis"}));
   app->add_option("--mode", command->mode,
@@ -166,9 +166,9 @@ void add_track(CLI::App& parent, Action& chosen) {
   app->add_option("--follow", command->follow,
                   "Whom the status line follows: nearest, first, or a head's name");
   app->add_option("--rate", command->rate_hz, "Poses a second (default: the wall's rate)")
-      ->check(CLI::Range(1.0, 1000.0));
+      ->check(between(1.0, 1000.0));
   app->add_option("--seconds", command->seconds, "Length (default: until Ctrl-C)")
-      ->check(CLI::Range(0.05, 1e8));
+      ->check(between(0.05, 1e8));
   app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
   add_targets(*app, command->targets);
   add_emulation(*app, command->emulation);

@@ -260,11 +260,11 @@ void add_view(CLI::App& parent, Action& chosen) {
   app->add_option("--screen-mm", options->screen_mm,
                   "The screen's visible size, where it reports a wrong one")
       ->expected(2)
-      ->check(CLI::Range(20.0, 50000.0))
+      ->check(between(20.0, 50000.0))
       ->type_name("WIDTH HEIGHT");
   add_place(*app, options->place);
   app->add_flag("--fullscreen", options->fullscreen, "Cover the screen");
-  app->add_option("--seconds", options->seconds, "End by itself")->check(CLI::Range(0.05, 1e6));
+  app->add_option("--seconds", options->seconds, "End by itself")->check(between(0.05, 1e6));
   app->add_option("--seed", options->seed, "Of the simulated walk");
   add_emulation(*app, options->emulation);
   for (const char* name : {"--link", "--kernel"}) app->get_option(name)->needs(track);

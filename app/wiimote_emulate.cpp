@@ -157,12 +157,11 @@ void add_wiimote_emulate(CLI::App& wiimote, Action& chosen) {
   app->add_option("--wall", options->wall_file,
                   "Wall file: where the cameras stand (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
-  app->add_option("--seconds", options->seconds, "End after this time")
-      ->check(CLI::Range(0.1, 1e7));
+  app->add_option("--seconds", options->seconds, "End after this time")->check(between(0.1, 1e7));
   app->add_option("--unplug-every", options->unplug_every_s,
                   "Every so many seconds one of them goes away for two seconds")
       ->type_name("S")
-      ->check(CLI::Range(3.0, 1e6));
+      ->check(between(3.0, 1e6));
   app->add_option("--seed", options->seed, "Of the walk and of the cameras' noise");
   app->footer(
       "\nNeeds /dev/uhid, as root: sudo modprobe uhid. With --verbose every report that somebody\n"

@@ -164,7 +164,7 @@ void add_wiimote_identify(CLI::App& wiimote, Action& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* app = wiimote.add_subcommand("identify", "Rumble one and let its LEDs run");
   app->add_option("WIIMOTE", options->which, "Number as list shows it, or address")->required();
-  app->add_option("--seconds", options->seconds, "How long")->check(CLI::Range(0.2, 60.0));
+  app->add_option("--seconds", options->seconds, "How long")->check(between(0.2, 60.0));
   add_emulated(*app, options->emulated);
   app->callback([options, &chosen] {
     chosen = [options] { return identify(options->which, options->emulated, options->seconds); };

@@ -85,7 +85,7 @@ void add_wiimote_pair(CLI::App& wiimote, Action& chosen) {
       ->type_name("hciN");
   app->add_option("--count", options->count, "How many Wiimotes")->check(CLI::Range(1, 16));
   app->add_option("--seconds", options->seconds, "How long to wait for each")
-      ->check(CLI::Range(1.0, 3600.0));
+      ->check(between(1.0, 3600.0));
   app->add_flag("--json", options->json, "A line of JSON a Wiimote");
   app->footer(
       "\nExamples:\n"

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <mutex>
 
+#include "app/common.h"
 #include "app/stop_signals.h"
 #include "app/wiimote.h"
 #include "app/wiimote_screen.h"
@@ -200,7 +201,7 @@ void add_wiimote_watch(CLI::App& wiimote, Action& chosen) {
                   "wii-1 to wii-5, marcan, inio, maximum, or 22 hexadecimal digits")
       ->check(check_sensitivity);
   app->add_option("--seconds", options->seconds, "Length (default: until Ctrl-C)")
-      ->check(CLI::Range(0.05, 1e6));
+      ->check(between(0.05, 1e6));
   app->add_flag("--json", options->json, "A line of JSON a report, nothing else");
   app->add_flag("--no-window", options->no_window, "No window, also where there is a display");
   add_emulated(*app, options->emulated);

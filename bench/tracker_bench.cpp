@@ -10,6 +10,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "simulator/emulated_room.h"
+#include "simulator/single_frame.h"
 #include "simulator/trial.h"
 #include "tracker/tracker.h"
 #include "tracker/wiimote/emulator.h"
@@ -140,15 +141,8 @@ BENCHMARK(thesis_poll_over_opencv)->ArgName("distorted")->Arg(0)->Arg(1);
 /// Four LEDs that sway 3 m before cameras behind them, on the radio link of thesis Table 5.1.
 TrialOptions swaying_head(int cameras) {
   TrialOptions options;
-  for (int i = 0; i < cameras; ++i) {
-    CameraConfig camera;
-    camera.lag_ms = 6;
-    const double x = -1 + 2.0 * i / (cameras - 1);
-    camera.room_from_camera = look_at({x, 2.3, 5}, {0, 1.65, 2});
-    options.cameras.push_back(camera);
-  }
-  options.head.leds_in_head = {
-      {-0.10, 0, -0.09}, {0, 0.06, 0}, {0.10, -0.02, -0.09}, {0.03, -0.06, -0.02}};
+  options.cameras = cameras_of({.cameras = cameras});
+  options.head = four_led_head();
   options.room_from_head = swaying({0, 1.65, 2}, 0.57, radians(75));
   options.wiimote.link = two_on_one_adapter();
   options.length = std::chrono::seconds(20);

@@ -48,6 +48,16 @@ LedBody bare_leds(std::vector<Vec3> leds_in_body, BodyMotion room_from_body) {
   return {std::move(leds_in_body), brightness, std::move(room_from_body)};
 }
 
+LedBody touching(std::vector<Vec3> points_in_room) {
+  return bare_leds({Vec3::Zero()}, [points = std::move(points_in_room)](Time time) {
+    const double t = std::max(0.0, seconds(time.time_since_epoch()) / 3);
+    const auto from = std::min(static_cast<std::size_t>(t), points.size() - 1);
+    const auto to = std::min(from + 1, points.size() - 1);
+    const double share = std::clamp(3 * (t - static_cast<double>(from)) - 2, 0.0, 1.0);
+    return Rigid3{Quat::Identity(), (1 - share) * points[from] + share * points[to]};
+  });
+}
+
 BodyMotion waved(const WaveOptions& options) {
   Random random(options.seed);
   std::array<Swing, 6> swings;

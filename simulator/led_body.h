@@ -28,6 +28,9 @@ LedBody helmet_body(const HeadConfig& head, BodyMotion room_from_head);
 /// LEDs that shine alike in all directions, nothing in their way.
 LedBody bare_leds(std::vector<Vec3> leds_in_body, BodyMotion room_from_body);
 
+/// One bare LED that is held to each point for 2 s, then moved on in 1 s; from time zero.
+LedBody touching(std::vector<Vec3> points_in_room);
+
 struct WaveOptions {
   std::uint64_t seed = 1;
   Time start{};

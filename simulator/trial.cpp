@@ -3,35 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/emulated_room.h"
 #include "tracker/joint/rotation.h"
-#include "tracker/wiimote/emulator_bus.h"
 #include "tracker/wiimote/reader.h"
 
 namespace vindu {
 namespace {
 
+Site site_of(const TrialOptions& options) {
+  Site site;
+  site.cameras = options.cameras;
+  site.heads = {options.head};
+  return site;
+}
+
 /// The emulated Wiimotes and the driver that reads them.
 class Cameras {
  public:
-  Cameras(const TrialOptions& options, Clock& clock) : bus_(clock) {
-    for (std::size_t i = 0; i < options.cameras.size(); ++i) {
-      EmulatedWiimoteOptions wiimote = options.wiimote;
-      wiimote.seed += 0x9e3779b97f4a7c15ULL * (i + 1);
-      EmulatedDeviceOptions device;
-      device.seed = wiimote.seed;
-      device.link = wiimote.link;
-      device.ring = wiimote.ring;
-      Random random(wiimote.seed ^ 0x5851f42d4c957f2dULL);
-      device.firmware.phase =
-          from_seconds(random.uniform(0, seconds(device.firmware.report_period)));
-      bus_.add(device, [sensor = EmulatedSensor(options.cameras[i], options.head, wiimote.noise_px,
-                                                wiimote.seed, wiimote.glints, wiimote.false_dots),
-                        move = options.room_from_head](Time time) mutable {
-        return sensor.view(move(time));
-      });
-    }
-    for (std::size_t i = 0; i < bus_.size(); ++i)
-      readers_.emplace_back(bus_.open(bus_.path(i)), static_cast<int>(i));
+  Cameras(const TrialOptions& options, Clock& clock)
+      : room_(site_of(options), clock,
+              {.body = helmet_body(options.head, options.room_from_head),
+               .wiimote = options.wiimote}) {
+    for (std::size_t i = 0; i < options.cameras.size(); ++i)
+      readers_.emplace_back(room_.connect(i), static_cast<int>(i));
   }
 
   template <class Take>
@@ -41,7 +35,7 @@ class Cameras {
   }
 
  private:
-  EmulatedHidBus bus_;
+  EmulatedRoom room_;
   std::vector<WiimoteReader> readers_;
 };
 

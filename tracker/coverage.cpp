@@ -7,17 +7,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "tracker/joint/rotation.h"
+
 namespace vindu {
 namespace {
 
 constexpr std::size_t kMaxLeds = 16;
 constexpr std::size_t kWiimoteDots = 4;
-
-Mat3 cross_matrix(const Vec3& v) {
-  Mat3 matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
 
 struct SeenDot {
   std::size_t led = 0;

@@ -80,6 +80,8 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<std::string>{"render", "--all", "--tile", "tile-0-0"},
                       std::vector<std::string>{"simulate", "--mode", "fly"},
                       std::vector<std::string>{"simulate", "--seconds", "0"},
+                      std::vector<std::string>{"simulate", "--seconds", "nan"},
+                      std::vector<std::string>{"simulate", "--noise-px", "inf"},
                       std::vector<std::string>{"simulate", "--clock", "broken"},
                       std::vector<std::string>{"view", "--mouse", "--track"},
                       std::vector<std::string>{"view", "--screen-mm", "500"},

@@ -26,16 +26,11 @@ Site room_with_wall() {
   return site;
 }
 
-/// An LED that is held to one point after the other, 2 s each and 1 s between them.
-LedBody touching(const std::vector<WallTarget>& targets, const Rigid3& room_from_wall) {
-  return bare_leds({Vec3::Zero()}, [=](Time time) {
-    const double t = std::max(0.0, seconds(time.time_since_epoch()) / 3);
-    const auto from = std::min(static_cast<std::size_t>(t), targets.size() - 1);
-    const auto to = std::min(from + 1, targets.size() - 1);
-    const double share = std::clamp(3 * (t - static_cast<double>(from)) - 2, 0.0, 1.0);
-    return Rigid3{Quat::Identity(), room_from_wall * ((1 - share) * targets[from].x_in_wall +
-                                                      share * targets[to].x_in_wall)};
-  });
+LedBody touching_led(const std::vector<WallTarget>& targets, const Rigid3& room_from_wall) {
+  std::vector<Vec3> points_in_room;
+  for (const WallTarget& target : targets)
+    points_in_room.push_back(room_from_wall * target.x_in_wall);
+  return touching(std::move(points_in_room));
 }
 
 TEST(WallTargets, AreTileCornersThatTwoCamerasSeeFarApart) {
@@ -48,7 +43,7 @@ TEST(WallTargets, AreTileCornersThatTwoCamerasSeeFarApart) {
 TEST(WallFit, BringsMovedCamerasBackToTheWall) {
   EmulatedCapture wanted{.site = room_with_wall(), .seconds = 17};
   const auto targets = choose_targets(wanted.site, 5);
-  wanted.body = touching(targets, wanted.site.wall.room_from_wall);
+  wanted.body = touching_led(targets, wanted.site.wall.room_from_wall);
   const Capture capture = capture_of(wanted);
   const Rigid3 moved{Quat(Eigen::AngleAxisd(0.2, Vec3(1, 2, 3).normalized())), {0.3, -0.1, 0.2}};
   auto said = wanted.site.cameras;
@@ -69,7 +64,7 @@ TEST(WallFit, BringsMovedCamerasBackToTheWall) {
 TEST(WallFit, OfTouchesInAnotherOrderIsRefused) {
   EmulatedCapture wanted{.site = room_with_wall(), .seconds = 17};
   auto targets = choose_targets(wanted.site, 5);
-  wanted.body = touching(targets, wanted.site.wall.room_from_wall);
+  wanted.body = touching_led(targets, wanted.site.wall.room_from_wall);
   const auto touches = find_touches(capture_of(wanted), wanted.site.cameras);
   std::swap(targets[0], targets[2]);
   EXPECT_THROW(fit_wall(touches, targets, wanted.site.wall.room_from_wall), Error);
