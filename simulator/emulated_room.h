@@ -15,12 +15,12 @@
 namespace vindu {
 
 struct EmulatedRoomOptions {
-  PersonOptions person;
-  std::optional<LedBody> body;  ///< seen in place of the person's helmet
+  PersonOptions person{};
+  std::optional<LedBody> body{};  ///< seen in place of the person's helmet
   /// By camera: how much later than its picture it shows something, besides the link's delay; those
   /// without an entry: not at all.
-  std::vector<Duration> late;
-  EmulatedWiimoteOptions wiimote;  ///< each device derives its own seed from this one
+  std::vector<Duration> late{};
+  EmulatedWiimoteOptions wiimote{};  ///< each device derives its own seed from this one
 };
 
 /// The clock must outlive the room, and the room its devices and their handles. Its devices are
