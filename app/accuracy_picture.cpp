@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/diagram.h"
+#include "renderer/diagram.h"
 
 namespace vindu::app {
 namespace {

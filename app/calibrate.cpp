@@ -46,8 +46,8 @@ void watch_emulated(const CalibrateOptions& options, const CaptureWish& wish, Ca
   room.wiimote.seed = options.seed;
   room.wiimote.noise_px = options.noise_px;
   const EmulatedRoom emulated(truth, clock, room);
-  run.capture =
-      watch(emulated, truth.cameras.size(), clock, options.seconds.value_or(wish.seconds));
+  run.capture = watch(emulated, truth.cameras.size(), clock, options.seconds.value_or(wish.seconds),
+                      wish.watching);
 }
 
 /// On a terminal only, over and over on one line.
@@ -96,6 +96,7 @@ void watch_live(const CalibrateOptions& options, const CaptureWish& wish, Calibr
       for (const auto& camera : cameras.sources())
         while (const auto seen = camera->next(clock.now()))
           run.capture.observations.push_back(*seen);
+      if (wish.watching && !wish.watching(run.capture)) break;
       if (round % 5 == 4) line.show(wish.progress(run.capture) + "   (Ctrl-C: enough)");
       if (signals.came_within(std::chrono::milliseconds(100))) break;
     }

@@ -46,6 +46,8 @@ struct CaptureWish {
   std::function<LedBody(const Site& truth)> body;
   /// How far it is, for a line on the terminal; given every half second.
   std::function<std::string(const Capture& so_far)> progress;
+  /// Given what was seen so far, ten times a second; false: that is enough.
+  std::function<bool(const Capture& so_far)> watching{};
   bool known_cameras = false;  ///< emulated ones are what and where the wall file says
 };
 

@@ -9,7 +9,10 @@
 
 #include "app/calibrate.h"
 #include "app/common.h"
+#include "app/touch_screen.h"
 #include "core/error.h"
+#include "core/log.h"
+#include "renderer/surface.h"
 #include "tracker/calibration/wall_touch.h"
 
 namespace vindu::app {
@@ -18,6 +21,7 @@ namespace {
 struct WallCommand {
   CalibrateOptions common;
   int targets = 5;
+  std::string draw;  ///< folder
 };
 
 LedBody touching_led(const std::vector<WallTarget>& targets, const Rigid3& room_from_wall) {
@@ -27,12 +31,78 @@ LedBody touching_led(const std::vector<WallTarget>& targets, const Rigid3& room_
   return touching(std::move(points_in_room));
 }
 
-std::string progress_of(const Capture& so_far, const Site& site,
-                        const std::vector<WallTarget>& targets) {
-  const std::size_t done = find_touches(so_far, site.cameras).size();
+std::string progress_line(const TouchProgress& progress, const std::vector<WallTarget>& targets) {
+  const std::size_t done = progress.touches.size();
   if (done >= targets.size()) return "all points are touched";
-  return fmt::format("{} of {}: hold the LED to the {}", done + 1, targets.size(),
-                     targets[done].name);
+  const std::string request =
+      fmt::format("{} of {}: hold the LED to the {}", done + 1, targets.size(), targets[done].name);
+  return progress.remark.empty() ? request : request + " (" + progress.remark + ")";
+}
+
+TouchPage first_page(const Site& site, const std::vector<WallTarget>& targets) {
+  constexpr double kRingShare = 0.16;  // of the least side of any tile
+  TouchPage page;
+  for (const WallTarget& target : targets) page.points.push_back({target.x_in_wall, target.tile});
+  double least_m = 1e300;
+  for (const Tile& tile : site.wall.tiles)
+    least_m = std::min({least_m, tile.corners.width_m(), tile.corners.height_m()});
+  page.ring_m = kRingShare * least_m;
+  return page;
+}
+
+/// A window where there is a display and somebody touches points now; pictures where asked for. The
+/// terminal says it all, too, so a display that cannot be used ends nothing.
+ShowPage choose_show(const WallCommand& command, const Wall& wall) {
+  const auto show_nothing = [](const TouchPage&) { return true; };
+  if (!command.draw.empty()) return page_folder(wall, command.draw);
+  if (!command.common.from.empty() || !has_display()) return show_nothing;
+  try {
+    const ShowPage window = page_window(wall);
+    if (wall.tiles.size() > 1)
+      log_info("wall", "the window shows all tiles together, small: touch the wall's own corners");
+    return window;
+  } catch (const Error& error) {
+    log_warning("wall", std::string(error.what()) + " (the points are named here)");
+    return show_nothing;
+  }
+}
+
+/// Follows who touches the targets, and shows the page.
+class Touching {
+ public:
+  Touching(const Site& site, std::vector<WallTarget> targets, ShowPage show)
+      : site_(site),
+        targets_(std::move(targets)),
+        page_(first_page(site, targets_)),
+        show_(std::move(show)) {
+    show_(page_);
+  }
+
+  const TouchProgress& progress() const { return progress_; }
+  /// False when all are touched, or the window was closed.
+  bool see(const Capture& so_far) {
+    progress_ = follow_touches(so_far, site_.cameras, targets_);
+    page_.done = progress_.touches.size();
+    page_.held = progress_.held;
+    page_.remark = progress_.remark;
+    return show_(page_) && page_.done < targets_.size();
+  }
+
+ private:
+  const Site& site_;
+  std::vector<WallTarget> targets_;
+  TouchPage page_;
+  ShowPage show_;
+  TouchProgress progress_;
+};
+
+void refuse_unfinished(const TouchProgress& progress, const std::vector<WallTarget>& targets) {
+  if (progress.touches.size() >= targets.size() || progress.remark.empty()) return;
+  throw Error({fmt::format("{} of {} points were touched; then: {}", progress.touches.size(),
+                           targets.size(), progress.remark),
+               "wall",
+               "touch them in the order shown; where the cameras have no wand calibration, make "
+               "one first"});
 }
 
 void print(const std::vector<WallTarget>& targets, const WallFit& fit, bool json) {
@@ -66,15 +136,18 @@ int calibrate_wall(const WallCommand& command) {
                  "turn the cameras so that views of two overlap on the wall"});
   fmt::print(stderr, "Hold the only LED still for two seconds at each, in this order:\n");
   for (const WallTarget& target : targets) fmt::print(stderr, "  {}\n", target.name);
+  Touching touching(site, targets, choose_show(command, site.wall));
   const Calibrating run = capture(
       command.common,
       {.name = "wall",
        .seconds = 3.0 * static_cast<double>(targets.size()) + 1,
        .request = "Hold the LED to the first point",
        .body = [&](const Site& truth) { return touching_led(targets, truth.wall.room_from_wall); },
-       .progress = [&](const Capture& so_far) { return progress_of(so_far, site, targets); }});
-  auto touches = find_touches(run.capture, run.site.cameras);
-  const WallFit fit = fit_wall(touches, targets, run.site.wall.room_from_wall);
+       .progress = [&](const Capture&) { return progress_line(touching.progress(), targets); },
+       .watching = [&](const Capture& so_far) { return touching.see(so_far); }});
+  touching.see(run.capture);
+  refuse_unfinished(touching.progress(), targets);
+  const WallFit fit = fit_wall(touching.progress().touches, targets, run.site.wall.room_from_wall);
   print(targets, fit, command.common.json);
   std::vector<CameraCalibration> found;
   for (const CameraConfig& camera : run.site.cameras) {
@@ -100,6 +173,9 @@ void add_calibrate_wall(CLI::App& calibrate, Action& chosen) {
   add_calibrate_options(*app, command->common);
   app->add_option("--targets", command->targets, "So many corners (default: 5)")
       ->check(CLI::Range(3, 20));
+  app->add_option("--draw", command->draw,
+                  "Pictures of what the wall shows, instead of a window: touch-N.png, wall-N.png")
+      ->type_name("DIR");
   app->footer("\nExample, after a wand calibration:\n  vindu calibrate wall --wall wall.toml\n");
   app->callback([command, &chosen] { chosen = [command] { return calibrate_wall(*command); }; });
 }

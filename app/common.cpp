@@ -14,6 +14,7 @@
 #include "renderer/import.h"
 #include "renderer/resources.h"
 #include "renderer/surface.h"
+#include "renderer/view.h"
 
 namespace vindu::app {
 namespace {
@@ -112,6 +113,11 @@ void make_folder(const std::string& folder) {
 }
 
 Look live_look() { return {.samples = draws_in_software() ? 1 : 4}; }
+
+TileCorners content_corners(const Tile& tile, const Window& window) {
+  if (tile.mount != TileMount{}) return tile.corners;
+  return part_of_tile(tile, window.content_on_screen_px(), window.size());
+}
 
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
                        const Site& site) {

@@ -11,6 +11,10 @@
 #include "renderer/placement.h"
 #include "renderer/scene.h"
 
+namespace vindu {
+class Window;
+}
+
 namespace vindu::app {
 
 /// An option "x,y,z" in metres.
@@ -37,6 +41,10 @@ void make_folder(const std::string& folder);
 /// How frames are drawn while they run: a CPU that draws does not smooth edges, which costs it more
 /// than twice the time. Needs a current context.
 Look live_look();
+
+/// A window's content on the screen that is the tile, whose pixels are that screen's; the whole
+/// tile where it is mirrored or turned.
+TileCorners content_corners(const Tile& tile, const Window& window);
 
 struct LoadedScene {
   Scene scene;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "app/diagram.h"
+#include "renderer/diagram.h"
 
 namespace vindu::app {
 namespace {

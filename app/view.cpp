@@ -71,13 +71,6 @@ Site screen_site(const ViewOptions& options, const ScreenReport& screen) {
   return site;
 }
 
-/// The window's content on the screen; the whole screen where that is mirrored or turned.
-TileCorners content_corners(const Wall& screen, const Window& window) {
-  const Tile& tile = screen.tiles.front();
-  if (tile.mount != TileMount{}) return tile.corners;
-  return part_of_tile(tile, window.content_on_screen_px(), window.size());
-}
-
 /// A walk before a screen of this width: as wide as the screen twice, one to two widths away.
 PersonOptions walk_before(const Wall& wall, Time start, std::uint64_t seed) {
   const double width_m = wall.grid.width_m, height_m = wall.room_from_wall.translation.y();
@@ -113,7 +106,8 @@ class Viewer {
         window_(window),
         site_(screen_site(options, window.screen())),
         renderer_(Style::lit),
-        shown_(load_shown(options.model, options, site_, content_corners(site_.wall, window))) {}
+        shown_(load_shown(options.model, options, site_,
+                          content_corners(site_.wall.tiles.front(), window))) {}
 
   const Site& site() const { return site_; }
   const Navigation& navigation() const { return shown_.navigation; }
@@ -127,7 +121,8 @@ class Viewer {
       canvas_ = std::make_unique<Canvas>(size, live_look());
       picture_ = std::make_unique<Picture>(size, Style::lit);
     }
-    const auto view = tile_view(content_corners(site_.wall, window_), state.eye_in_wall);
+    const auto view =
+        tile_view(content_corners(site_.wall.tiles.front(), window_), state.eye_in_wall);
     shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
                       state.animation_time_s);
     const GpuScene* scenes[] = {&shown_.scene};
@@ -148,7 +143,8 @@ class Viewer {
     const auto file = window_.take_dropped_file();
     if (!file) return;
     try {
-      shown_ = load_shown(*file, options_, site_, content_corners(site_.wall, window_));
+      shown_ =
+          load_shown(*file, options_, site_, content_corners(site_.wall.tiles.front(), window_));
     } catch (const Error& error) {
       log_warning("view", std::string(error.what()) + " (the scene before it stays)");
     }

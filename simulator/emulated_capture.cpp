@@ -4,7 +4,8 @@
 
 namespace vindu {
 
-Capture watch(const EmulatedRoom& room, std::size_t cameras, ManualClock& clock, double seconds) {
+Capture watch(const EmulatedRoom& room, std::size_t cameras, ManualClock& clock, double seconds,
+              const std::function<bool(const Capture&)>& watching) {
   std::vector<WiimoteReader> readers;
   for (std::size_t i = 0; i < cameras; ++i)
     readers.emplace_back(room.connect(i), static_cast<int>(i));
@@ -23,6 +24,7 @@ Capture watch(const EmulatedRoom& room, std::size_t cameras, ManualClock& clock,
         readings_g[i].emplace_back(g[0], g[1], g[2]);
       }
     clock.sleep_until(now);
+    if (watching && step % 10 == 0 && !watching(capture)) break;
   }
   for (const auto& of_camera : readings_g) capture.up_in_camera.push_back(up_in_camera(of_camera));
   return capture;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "simulator/emulated_room.h"
@@ -11,8 +12,10 @@
 namespace vindu {
 
 /// Reads all cameras for this long, from where the clock is. The room must have been made for
-/// `clock` and as many cameras.
-Capture watch(const EmulatedRoom& room, std::size_t cameras, ManualClock& clock, double seconds);
+/// `clock` and as many cameras. `watching` is given what was seen so far ten times a second of that
+/// clock; false: that is enough.
+Capture watch(const EmulatedRoom& room, std::size_t cameras, ManualClock& clock, double seconds,
+              const std::function<bool(const Capture& so_far)>& watching = {});
 
 /// The room as it truly is, where the site is what people have measured: cameras stand some 5 cm
 /// and 2 degrees off, lenses are those of single units (2 % of the focal length, 10 px of the

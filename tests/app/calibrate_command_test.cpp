@@ -1,5 +1,6 @@
 // vindu calibrate: with emulated cameras that stand elsewhere than the wall file says, each
 // calibration finds them, writes what it found, and says how good that is.
+#include "renderer/image.h"
 #include "tests/app/process.h"
 
 namespace vindu {
@@ -32,6 +33,29 @@ TEST_F(CalibrateCommand, ByAWandThenByTheWallFitsTheWall) {
   const ProcessResult result = vindu({"calibrate", "wall", "--wall", wall_});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, AllOf(HasSubstr("corner of tile-"), HasSubstr("rms")));
+  EXPECT_THAT(bytes_of(path("calibration/cameras.toml")), HasSubstr("wand + wall"));
+}
+
+TEST_F(CalibrateCommand, OfTheWallDrawsWhatItShowsPointByPoint) {
+  ASSERT_EQ(vindu({"calibrate", "wand", "--wall", wall_}).exit_code, 0);
+  const ProcessResult result = vindu({"calibrate", "wall", "--wall", wall_, "--targets", "3",
+                                      "--draw", path("pages"), "--dry-run"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(files_in("pages"),
+              ::testing::ElementsAre("touch-1.png", "touch-2.png", "touch-3.png", "wall-1.png",
+                                     "wall-2.png", "wall-3.png", "wall-done.png"));
+  const Image tile = read_png(path("pages/touch-1.png"));
+  EXPECT_EQ((SizePx{tile.width_px, tile.height_px}), (SizePx{1024, 768}));
+}
+
+TEST_F(CalibrateCommand, OfTheWallInAWindowRunsToItsEnd) {
+  const VirtualDisplay display;
+  ASSERT_NE(display.name(), "") << "Xvfb does not start";
+  ASSERT_EQ(vindu({"calibrate", "wand", "--wall", wall_}).exit_code, 0);
+  const ProcessResult result =
+      vindu({"calibrate", "wall", "--wall", wall_, "--targets", "3"}, display.environment());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("the window shows"));
   EXPECT_THAT(bytes_of(path("calibration/cameras.toml")), HasSubstr("wand + wall"));
 }
 

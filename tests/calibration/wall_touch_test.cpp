@@ -61,6 +61,63 @@ TEST(WallFit, BringsMovedCamerasBackToTheWall) {
   }
 }
 
+/// The end of the capture is cut off.
+Capture until(const Capture& capture, double end_s) {
+  Capture begun = capture;
+  std::erase_if(begun.observations,
+                [&](const Observation& seen) { return seen.arrival > Time{from_seconds(end_s)}; });
+  return begun;
+}
+
+TEST(WallTouches, AreCountedOneAfterTheOtherWhileTheLedIsHeld) {
+  EmulatedCapture wanted{.site = room_with_wall(), .seconds = 17};
+  const auto targets = choose_targets(wanted.site, 5);
+  wanted.body = touching_led(targets, wanted.site.wall.room_from_wall);
+  const Capture capture = capture_of(wanted);
+  const auto after = [&](double end_s) {
+    return follow_touches(until(capture, end_s), wanted.site.cameras, targets);
+  };
+  const TouchProgress half = after(3.5), held = after(4.3), on_its_way = after(5.5);
+  EXPECT_EQ(half.touches.size(), 1u);
+  EXPECT_GT(half.held, 0.3);
+  EXPECT_LT(half.held, 1);
+  EXPECT_EQ(held.touches.size(), 2u);  // and is still held there: that is not the third's time
+  EXPECT_EQ(held.held, 0);
+  EXPECT_LT(on_its_way.held, 0.2);
+  const TouchProgress end = after(17);
+  EXPECT_EQ(end.touches.size(), targets.size());
+  EXPECT_EQ(end.remark, "");
+}
+
+TEST(WallTouches, OfAnotherPointAreRefusedAndTheRightOneStillCounts) {
+  EmulatedCapture wanted{.site = room_with_wall(), .seconds = 11};
+  const auto targets = choose_targets(wanted.site, 3);
+  wanted.body = touching_led({targets[0], targets[2], targets[1], targets[2]},
+                             wanted.site.wall.room_from_wall);
+  const Capture capture = capture_of(wanted);
+  const auto refused = follow_touches(until(capture, 5), wanted.site.cameras, targets);
+  EXPECT_EQ(refused.touches.size(), 1u);
+  EXPECT_THAT(refused.remark, ::testing::HasSubstr("point 2 is"));
+  const auto end = follow_touches(capture, wanted.site.cameras, targets);
+  EXPECT_EQ(end.touches.size(), 3u);
+}
+
+TEST(WallTouches, NameWhatKeepsTheCamerasFromSeeingThem) {
+  EmulatedCapture wanted{.site = room_with_wall(), .seconds = 2};
+  const auto targets = choose_targets(wanted.site, 5);
+  wanted.body = touching_led(targets, wanted.site.wall.room_from_wall);
+  Capture hidden = capture_of(wanted), lamps = hidden;
+  for (Observation& seen : hidden.observations)
+    if (seen.camera == 1) seen.dots = {};
+  EXPECT_THAT(follow_touches(hidden, wanted.site.cameras, targets).remark,
+              ::testing::HasSubstr("only camera-0 sees the LED"));
+  for (Observation& seen : lamps.observations)
+    if (seen.camera == 1) seen.dots.push_back({500, 300, 2});
+  EXPECT_THAT(follow_touches(lamps, wanted.site.cameras, targets).remark,
+              ::testing::HasSubstr("camera-1 sees several lights"));
+  EXPECT_EQ(follow_touches({}, wanted.site.cameras, targets).remark, "");
+}
+
 TEST(WallFit, OfTouchesInAnotherOrderIsRefused) {
   EmulatedCapture wanted{.site = room_with_wall(), .seconds = 17};
   auto targets = choose_targets(wanted.site, 5);

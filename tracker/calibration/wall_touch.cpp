@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <ranges>
 
 #include "core/error.h"
 #include "tracker/calibration/layout.h"
@@ -15,6 +18,8 @@ namespace {
 constexpr double kStill_s = 0.8;
 constexpr double kStill_px = 4;       // that a held LED may wander
 constexpr double kElsewhere_m = 0.1;  // the next touch
+constexpr double kNow_s = 0.3;        // what cameras saw within it, they see now
+constexpr double kWidestGap_mm = 200;
 
 int cameras_that_see(const Site& site, const Vec3& x_in_wall) {
   return static_cast<int>(std::ranges::count_if(site.cameras, [&](const CameraConfig& camera) {
@@ -38,7 +43,7 @@ std::vector<WallTarget> seen_corners(const Site& site) {
                                       std::pair("upper left", tile.corners.upper_left_in_wall),
                                       std::pair("upper right", tile.corners.upper_right_in_wall())})
       if (cameras_that_see(site, place) >= 2)
-        corners.push_back({fmt::format("{} corner of {}", name, tile.name), place});
+        corners.push_back({fmt::format("{} corner of {}", name, tile.name), tile.name, place});
   return corners;
 }
 
@@ -49,19 +54,24 @@ struct Still {
   int count = 0;
 };
 
-std::vector<Still> still_stretches(const Capture& capture, int camera) {
+std::vector<Still> stretches_of(const Capture& capture, int camera) {
   std::vector<Still> stretches;
   for (const Observation& seen : capture.observations) {
     if (seen.camera != camera || seen.dots.size() != 1) continue;
     const double t_s = seconds(seen.arrival.time_since_epoch());
     const Vec2 dot(seen.dots[0].x_px, seen.dots[0].y_px);
-    const bool goes_on = !stretches.empty() && t_s - stretches.back().end_s < 0.3 &&
+    const bool goes_on = !stretches.empty() && t_s - stretches.back().end_s < kNow_s &&
                          (dot - stretches.back().raw_px).norm() < kStill_px;
     if (!goes_on) stretches.push_back({t_s, t_s, dot, 0});
     Still& still = stretches.back();
     still.end_s = t_s;
     still.raw_px += (dot - still.raw_px) / ++still.count;
   }
+  return stretches;
+}
+
+std::vector<Still> still_stretches(const Capture& capture, int camera) {
+  auto stretches = stretches_of(capture, camera);
   std::erase_if(stretches, [](const Still& s) { return s.end_s - s.begin_s < kStill_s; });
   return stretches;
 }
@@ -82,6 +92,76 @@ Touch meet(const std::vector<Ray>& rays) {
     sum2 += ray.direction_in_room.cross(touch.x_in_room - ray.origin_in_room).squaredNorm();
   touch.gap_mm = 2e3 * std::sqrt(sum2 / static_cast<double>(rays.size()));
   return touch;
+}
+
+/// What the cameras see at the end of a capture.
+struct Now {
+  std::optional<Touch> touch;  // of two cameras or more that see one dot stand still
+  double still_s = 0;          // for so long
+  std::string remark;          // where they cannot see a touch; ""
+};
+
+/// How many dots most of a camera's newest pictures show: none, one, or 2 for several.
+int lights_now(const Capture& capture, int camera, Time end) {
+  std::array<int, 3> pictures{};
+  for (const Observation& seen : std::views::reverse(capture.observations)) {
+    if (end - seen.arrival > from_seconds(2 * kNow_s)) break;
+    if (seen.camera == camera && end - seen.arrival < from_seconds(kNow_s))
+      ++pictures[std::min<std::size_t>(seen.dots.size(), 2)];
+  }
+  return static_cast<int>(std::ranges::max_element(pictures) - pictures.begin());
+}
+
+std::string lights_remark(const Capture& capture, const std::vector<CameraConfig>& cameras,
+                          Time end) {
+  std::vector<std::string> seeing;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const int lights = lights_now(capture, static_cast<int>(i), end);
+    if (lights > 1)
+      return fmt::format("{} sees several lights: show it the LED alone", cameras[i].name);
+    if (lights == 1) seeing.push_back(cameras[i].name);
+  }
+  if (seeing.size() == 1) return fmt::format("only {} sees the LED: do not hide it", seeing[0]);
+  return "";
+}
+
+Now seen_now(const Capture& capture, const std::vector<CameraConfig>& cameras) {
+  Now now;
+  if (capture.observations.empty()) return now;
+  Time end{};
+  for (const Observation& seen : capture.observations) end = std::max(end, seen.arrival);
+  now.remark = lights_remark(capture, cameras, end);
+  const double end_s = seconds(end.time_since_epoch());
+  std::vector<Ray> rays;
+  double begin_s = 0;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const auto stretches = stretches_of(capture, static_cast<int>(i));
+    if (stretches.empty() || end_s - stretches.back().end_s > kNow_s) continue;
+    rays.push_back(CameraModel(cameras[i]).ray_through(stretches.back().raw_px));
+    begin_s = std::max(begin_s, stretches.back().begin_s);
+  }
+  if (rays.size() < 2 || !now.remark.empty()) return now;
+  now.still_s = end_s - begin_s;
+  now.touch = meet(rays);
+  if (now.touch->gap_mm < kWidestGap_mm || now.still_s < kNow_s) return now;
+  now.remark = fmt::format("the cameras disagree by {:.0f} mm: calibrate them by a wand first",
+                           now.touch->gap_mm);
+  now.touch.reset();
+  return now;
+}
+
+/// Why a touch cannot be of the next target, by its distances from those before; "" where it can.
+std::string misplaced(const Touch& touch, const std::vector<Touch>& before,
+                      const std::vector<WallTarget>& targets) {
+  const std::size_t next = before.size();
+  for (std::size_t i = 0; i < next; ++i) {
+    const double seen_m = (touch.x_in_room - before[i].x_in_room).norm();
+    const double there_m = (targets[next].x_in_wall - targets[i].x_in_wall).norm();
+    if (std::abs(seen_m - there_m) > 0.06 + 0.03 * there_m)
+      return fmt::format("that was {:.2f} m from point {}, but point {} is {:.2f} m from it",
+                         seen_m, i + 1, next + 1, there_m);
+  }
+  return "";
 }
 
 }  // namespace
@@ -129,7 +209,7 @@ std::vector<Touch> find_touches(const Capture& capture, const std::vector<Camera
       if (rays.size() < 2) continue;
       Touch touch = meet(rays);
       touch.since_s = still.begin_s;
-      if (touch.gap_mm < 200) touches.push_back(touch);
+      if (touch.gap_mm < kWidestGap_mm) touches.push_back(touch);
     }
   std::ranges::sort(touches, {}, &Touch::since_s);
   std::vector<Touch> apart;
@@ -139,13 +219,31 @@ std::vector<Touch> find_touches(const Capture& capture, const std::vector<Camera
   return apart;
 }
 
+TouchProgress follow_touches(const Capture& capture, const std::vector<CameraConfig>& cameras,
+                             const std::vector<WallTarget>& targets) {
+  TouchProgress progress;
+  const auto touches = find_touches(capture, cameras);
+  for (const Touch& touch : touches) {
+    if (progress.touches.size() == targets.size()) break;
+    progress.remark = misplaced(touch, progress.touches, targets);
+    if (progress.remark.empty()) progress.touches.push_back(touch);
+  }
+  if (progress.touches.size() == targets.size()) return progress;
+  const Now now = seen_now(capture, cameras);
+  if (!now.remark.empty()) progress.remark = now.remark;
+  const bool held_before = now.touch && !touches.empty() &&
+                           (now.touch->x_in_room - touches.back().x_in_room).norm() < kElsewhere_m;
+  if (now.touch && !held_before) progress.held = std::min(1.0, now.still_s / kStill_s);
+  return progress;
+}
+
 WallFit fit_wall(const std::vector<Touch>& touches, const std::vector<WallTarget>& targets,
                  const Rigid3& room_from_wall) {
   if (targets.size() < 3 || touches.size() != targets.size())
     throw Error({fmt::format("{} touches were seen, of {} points", touches.size(), targets.size()),
                  "wall",
                  "hold the only LED still for a second at each point, in their order; at "
-                 "least three points, each seen by two cameras"});
+                 "least three points, each seen by two cameras that a wand has calibrated"});
   std::vector<Vec3> there, seen;
   double length = 0, length_seen = 0;
   for (std::size_t i = 0; i < touches.size(); ++i) {

@@ -13,6 +13,7 @@ namespace vindu {
 /// A corner of a tile, to be touched.
 struct WallTarget {
   std::string name;  ///< "upper left corner of tile-3-1"
+  std::string tile;
   Vec3 x_in_wall = Vec3::Zero();
 };
 
@@ -30,6 +31,18 @@ struct Touch {
 /// In the order of time; a place is held once, however long. Pictures with several dots are left
 /// out.
 std::vector<Touch> find_touches(const Capture& capture, const std::vector<CameraConfig>& cameras);
+
+/// How far somebody has come who touches the targets in their order.
+struct TouchProgress {
+  std::vector<Touch> touches;  ///< of the first targets
+  double held = 0;             ///< 0 to 1: how long the LED has been still at the next one
+  std::string remark;          ///< why what is seen now, or what was held last, does not count; ""
+};
+
+/// A touch counts when its distances from those before are the targets' distances, to 60 mm and
+/// 3 %; another one changes nothing.
+TouchProgress follow_touches(const Capture& capture, const std::vector<CameraConfig>& cameras,
+                             const std::vector<WallTarget>& targets);
 
 struct WallFit {
   Rigid3 room_from_before;           ///< what the cameras' poses are to be moved by

@@ -1,10 +1,10 @@
-#include "app/diagram.h"
+#include "renderer/diagram.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace vindu::app {
+namespace vindu {
 namespace {
 
 constexpr int kSamples = 4;  // a pixel and axis
@@ -92,4 +92,4 @@ void Diagram::text(const Vec2& at_px, std::string_view words, const TextStyle& s
             style);
 }
 
-}  // namespace vindu::app
+}  // namespace vindu

@@ -9,7 +9,7 @@
 #include "renderer/image.h"
 #include "renderer/text.h"
 
-namespace vindu::app {
+namespace vindu {
 
 constexpr Rgba8 kPaper{255, 255, 255, 255};
 constexpr Rgba8 kInk{30, 34, 40, 255};
@@ -49,4 +49,4 @@ class Diagram {
   Vec2 clip_least_px_, clip_largest_px_;
 };
 
-}  // namespace vindu::app
+}  // namespace vindu
