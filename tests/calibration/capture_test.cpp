@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/error.h"
@@ -58,6 +60,46 @@ TEST(Capture, LeavesOutTheVerticalOfWhatIsMoved) {
   EXPECT_FALSE(up_in_camera({{0, 0, 1}, {0, 0.5, 0.9}}));
   EXPECT_FALSE(up_in_camera({{0, 0, 1.5}, {0, 0, 1.5}}));
   EXPECT_FALSE(up_in_camera({}));
+}
+
+/// Share of the steps from picture to picture that are a whole number of periods, to 1 ms.
+double even_share(const CameraTrack& track, double period_s) {
+  std::size_t even = 0;
+  for (std::size_t i = 1; i < track.pictures.size(); ++i) {
+    const double steps = (track.pictures[i].t_s - track.pictures[i - 1].t_s) / period_s;
+    if (std::abs(steps - std::round(steps)) * period_s < 1e-3) ++even;
+  }
+  return static_cast<double>(even) / static_cast<double>(track.pictures.size() - 1);
+}
+
+TEST(MovingDots, ThatCameInBurstsStandAtTheTimesOfTheirCapture) {
+  const EmulatedCapture wanted{.site = true_site({{-1, 2.3, 5}, {1, 2.3, 5}}),
+                               .body = wand({0, 0.15, 0.5}),
+                               .seconds = 30,
+                               .link = two_on_one_adapter()};
+  const Capture capture = capture_of(wanted);
+  for (const CameraTrack& track : moving_dots(capture, wanted.site.cameras)) {
+    ASSERT_GT(track.pictures.size(), 1000u);
+    EXPECT_GT(even_share(track, 0.010), 0.75);  // of arrivals: 0.5
+    EXPECT_TRUE(std::ranges::is_sorted(track.pictures, {}, &CameraTrack::Picture::t_s));
+  }
+}
+
+TEST(MovingDots, ThatCameAtOnceStandAtTheirArrivals) {
+  for (const double loss : {0.0, 0.05}) {
+    const EmulatedCapture wanted{.site = true_site({{-1, 2.3, 5}, {1, 2.3, 5}}),
+                                 .body = wand({0, 0.15, 0.5}),
+                                 .seconds = 20,
+                                 .link = {.loss = loss}};
+    const Capture capture = capture_of(wanted);
+    const auto tracks = moving_dots(capture, wanted.site.cameras);
+    std::vector<std::size_t> next(tracks.size());
+    for (const Observation& seen : capture.observations) {
+      const auto camera = static_cast<std::size_t>(seen.camera);
+      EXPECT_EQ(tracks[camera].pictures[next[camera]++].t_s,
+                seconds(seen.arrival.time_since_epoch()));
+    }
+  }
 }
 
 }  // namespace

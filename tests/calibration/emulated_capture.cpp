@@ -35,11 +35,12 @@ Site true_site(const std::vector<Vec3>& positions_in_room) {
   return site;
 }
 
-LedBody wand(std::vector<double> leds_m, std::uint64_t seed) {
+LedBody wand(std::vector<double> leds_m, std::uint64_t seed, double tempo_hz) {
   std::vector<Vec3> leds;
   for (const double along_m : leds_m) leds.emplace_back(along_m - 0.5 * leds_m.back(), 0, 0);
   WaveOptions wave;
   wave.seed = seed;
+  wave.tempo_hz = tempo_hz;
   wave.room_from_rest.translation = {0, 1.65, 2.0};
   wave.reach_m = {0.8, 0.6, 0.7};
   return bare_leds(leds, waved(wave));

@@ -28,6 +28,6 @@ Capture capture_of(const EmulatedCapture& wanted);
 Site true_site(const std::vector<Vec3>& positions_in_room);
 
 /// LEDs on a line along x, waved through what those cameras see.
-LedBody wand(std::vector<double> leds_m, std::uint64_t seed = 1);
+LedBody wand(std::vector<double> leds_m, std::uint64_t seed = 1, double tempo_hz = 0.07);
 
 }  // namespace vindu::testing

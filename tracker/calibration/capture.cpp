@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "tracker/camera_model.h"
+#include "tracker/joint/capture_clock.h"
 #include "tracker/recording_devices.h"
 #include "tracker/wiimote/reader.h"
 
@@ -87,15 +88,15 @@ void drop_static_dots(CameraTrack& track) {
     std::erase_if(picture.dots_px, [&](const Vec2& dot) { return is_static(lit, dot, limit); });
 }
 
-/// Scatter of the arrivals about a straight line through 21 of them, the median over the capture.
-double jitter_of(const std::vector<CameraTrack::Picture>& pictures) {
+/// Scatter of times about a straight line through 21 of them, the median over the capture.
+double jitter_of(const std::vector<double>& times_s) {
   constexpr std::size_t kWindow = 21;
   std::vector<double> scatter_s;
-  for (std::size_t begin = 0; begin + kWindow <= pictures.size(); begin += kWindow) {
+  for (std::size_t begin = 0; begin + kWindow <= times_s.size(); begin += kWindow) {
     double sum_kk = 0, sum_kt = 0, mean_s = 0, sum_tt = 0;
-    for (std::size_t i = 0; i < kWindow; ++i) mean_s += pictures[begin + i].t_s / kWindow;
+    for (std::size_t i = 0; i < kWindow; ++i) mean_s += times_s[begin + i] / kWindow;
     for (std::size_t i = 0; i < kWindow; ++i) {
-      const double k = static_cast<double>(i) - 10, t_s = pictures[begin + i].t_s - mean_s;
+      const double k = static_cast<double>(i) - 10, t_s = times_s[begin + i] - mean_s;
       sum_kk += k * k, sum_kt += k * t_s, sum_tt += t_s * t_s;
     }
     scatter_s.push_back(std::sqrt(std::max(0.0, sum_tt - sum_kt * sum_kt / sum_kk) / kWindow));
@@ -104,6 +105,50 @@ double jitter_of(const std::vector<CameraTrack::Picture>& pictures) {
   const auto middle = scatter_s.begin() + static_cast<std::ptrdiff_t>(scatter_s.size() / 2);
   std::ranges::nth_element(scatter_s, middle);
   return *middle;
+}
+
+/// Whether a device's reports come in bursts: more of them wait for the radio than a clock that
+/// lost count now and then makes it seem.
+bool in_bursts(const std::vector<Time>& arrivals, const std::vector<CaptureTime>& captured) {
+  constexpr double kWaited_s = 1.5e-3, kShare = 0.1;
+  std::size_t waited = 0;
+  for (std::size_t i = 0; i < arrivals.size(); ++i)
+    if (seconds(arrivals[i] - captured[i].time) > kWaited_s) ++waited;
+  return static_cast<double>(waited) > kShare * static_cast<double>(arrivals.size());
+}
+
+/// When each of one camera's observations was captured, later by its lag, and how uncertain that
+/// is. Where reports come at once, or their clock is not known, it is the arrival.
+std::vector<CaptureTime> capture_times(const std::vector<Time>& arrivals, CameraSource source) {
+  std::vector<double> arrivals_s;
+  for (const Time arrival : arrivals) arrivals_s.push_back(seconds(arrival.time_since_epoch()));
+  const Duration jitter = from_seconds(jitter_of(arrivals_s));
+  CaptureClock clock(Duration::zero());
+  std::vector<CaptureTime> as_arrived, captured;
+  for (const Time arrival : arrivals) {
+    as_arrived.push_back({arrival, jitter});
+    captured.push_back(clock.capture_of(arrival));
+  }
+  const bool clock_helps = source != CameraSource::video && in_bursts(arrivals, captured);
+  return clock_helps ? captured : as_arrived;
+}
+
+CameraTrack track_of(const Capture& capture, int camera, CameraSource source) {
+  std::vector<Time> arrivals;
+  for (const Observation& seen : capture.observations)
+    if (seen.camera == camera) arrivals.push_back(seen.arrival);
+  const auto times = capture_times(arrivals, source);
+  CameraTrack track;
+  for (const Observation& seen : capture.observations) {
+    if (seen.camera != camera) continue;
+    const CaptureTime& time = times[track.pictures.size()];
+    CameraTrack::Picture picture{seconds(time.time.time_since_epoch()), seconds(time.sigma), {}};
+    for (const Dot& dot : seen.dots)
+      picture.dots_px.push_back(image_from_raw(source, {dot.x_px, dot.y_px}));
+    track.pictures.push_back(std::move(picture));
+  }
+  std::ranges::stable_sort(track.pictures, {}, &CameraTrack::Picture::t_s);
+  return track;
 }
 
 }  // namespace
@@ -141,17 +186,10 @@ Capture read_capture(const std::string& recording, const Site& site) {
 
 std::vector<CameraTrack> moving_dots(const Capture& capture,
                                      const std::vector<CameraConfig>& cameras) {
-  std::vector<CameraTrack> tracks(cameras.size());
-  for (const Observation& observation : capture.observations) {
-    const auto index = static_cast<std::size_t>(observation.camera);
-    CameraTrack::Picture picture{seconds(observation.arrival.time_since_epoch()), {}};
-    for (const Dot& dot : observation.dots)
-      picture.dots_px.push_back(image_from_raw(cameras[index].source, {dot.x_px, dot.y_px}));
-    tracks[index].pictures.push_back(std::move(picture));
-  }
-  for (CameraTrack& track : tracks) {
-    track.jitter_s = jitter_of(track.pictures);
-    drop_static_dots(track);
+  std::vector<CameraTrack> tracks;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    tracks.push_back(track_of(capture, static_cast<int>(i), cameras[i].source));
+    drop_static_dots(tracks.back());
   }
   return tracks;
 }

@@ -25,18 +25,20 @@ std::optional<Vec3> up_in_camera(const std::vector<Vec3>& readings_g);
 /// Error where it cannot be read or none of its devices is a camera of the site.
 Capture read_capture(const std::string& recording, const Site& site);
 
-/// The dots of one camera, in image pixels (OpenCV's), by their arrivals.
+/// The dots of one camera, in image pixels (OpenCV's), by the times at which they were captured.
 struct CameraTrack {
   struct Picture {
-    double t_s = 0;
+    double t_s = 0;      ///< of capture; later by the camera's lag
+    double sigma_s = 0;  ///< how uncertain that is
     std::vector<Vec2> dots_px;
   };
   std::vector<Picture> pictures;
-  double jitter_s = 0;  ///< rms of what arrivals stray from an even rate
 };
 
-/// One for each camera of the site. What does not move, a lamp or a reflection, is left out: dots
-/// in a cell of 4 px that is lit in more than 30 % of a camera's pictures.
+/// One for each camera of the site, in the order of capture. When a Wiimote took what has arrived
+/// in bursts is told by CaptureClock; a video camera's pictures are taken when they arrive. What
+/// does not move, a lamp or a reflection, is left out: dots in a cell of 4 px that is lit in more
+/// than 30 % of a camera's pictures.
 std::vector<CameraTrack> moving_dots(const Capture& capture,
                                      const std::vector<CameraConfig>& cameras);
 

@@ -11,7 +11,7 @@ namespace {
 /// The dot is moved along its speed to the moment at which its camera would have shown it.
 struct DotCost {
   Vec2 dot_px, speed_px_s;
-  double early_s;  // moment less arrival
+  double early_s;  // moment less picture's time
   double along_m;
   double weight;
 
@@ -206,7 +206,7 @@ CameraSigma sigma_from(const Eigen::VectorXd& variance, const LensPrior& prior, 
 }  // namespace
 
 double sigma_px(const AdjustedCamera& camera, const WandView& view, std::size_t led) {
-  return std::hypot(camera.sigma_px, view.speed_px_s[led].norm() * view.jitter_s);
+  return std::hypot(camera.sigma_px, view.speed_px_s[led].norm() * view.sigma_s);
 }
 
 Vec2 residual_px(const WandWorld& world, const WandPose& pose, const WandMoment& moment,

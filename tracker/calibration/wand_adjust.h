@@ -46,7 +46,7 @@ void adjust(const std::vector<WandMoment>& moments, Free free, WandWorld& world,
 Vec2 residual_px(const WandWorld& world, const WandPose& pose, const WandMoment& moment,
                  const WandView& view, std::size_t led);
 
-/// What a dot's motion within the jitter of its time adds to the camera's sigma.
+/// What a dot's motion within the uncertainty of its time adds to the camera's sigma.
 double sigma_px(const AdjustedCamera& camera, const WandView& view, std::size_t led);
 
 /// One sigma of a camera's parameters: position in world, rotation (all axes together), lens, lag.

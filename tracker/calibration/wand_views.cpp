@@ -12,7 +12,7 @@ constexpr std::size_t kNeighbours = 8;   // pictures before and after one, that 
 constexpr double kNeighbour_s = 0.25;    // not farther
 constexpr double kFarthestStep_px = 80;  // a dot's, from one picture to the next
 constexpr double kApart_s = 0.02;        // moments, at least
-constexpr double kTogether_s = 0.02;     // arrivals of one moment, at most
+constexpr double kTogether_s = 0.02;     // pictures of one moment, at most
 
 double distance_px(std::span<const Vec2> a, std::span<const Vec2> b) {
   double sum_px = 0;
@@ -54,6 +54,7 @@ std::optional<WandView> view_in(const CameraTrack::Picture& picture,
                                 std::span<const double> leds_m) {
   WandView view;
   view.t_s = picture.t_s;
+  view.sigma_s = picture.sigma_s;
   if (leds_m.size() == 2) {
     if (picture.dots_px.size() != 2) return std::nullopt;
     if ((picture.dots_px[0] - picture.dots_px[1]).norm() < kShortest_px) return std::nullopt;
@@ -167,7 +168,6 @@ std::vector<WandView> find_wand(const CameraTrack& track, int camera,
   for (std::size_t i = 0; i < all.size(); ++i) {
     WandView view = all[i];
     view.camera = camera;
-    view.jitter_s = track.jitter_s;
     if (find_speed(all, i, view)) moving.push_back(std::move(view));
   }
   return moving;

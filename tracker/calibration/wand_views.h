@@ -12,11 +12,11 @@ namespace vindu {
 /// One camera's view of the wand, one entry for each LED along it.
 struct WandView {
   int camera = 0;
-  double t_s = 0;  ///< of the arrival
+  double t_s = 0;      ///< of capture; later by the camera's lag
+  double sigma_s = 0;  ///< how uncertain that is
   std::vector<Vec2> dots_px;
   std::vector<Vec2> speed_px_s;  ///< slope through the pictures about this one
   std::vector<bool> used;        ///< false: an outlier
-  double jitter_s = 0;           ///< of the camera's arrivals
 
   /// Either end may be the first.
   void reverse();
