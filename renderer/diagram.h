@@ -1,5 +1,5 @@
-// A drawing on an image: smooth-edged shapes and words, in pixels from the upper left. For plans
-// and plots of the tools, not for frames.
+// A drawing on an image: smooth-edged shapes and words, in pixels from the upper left. For plans,
+// plots and pages of words and marks, not for frames of scenes.
 #pragma once
 
 #include <span>
