@@ -12,10 +12,18 @@ constexpr std::uint16_t kHome = 0x0080;
 
 bool tracked(const PoseSample& pose) { return pose.level < TrackingLevel::held; }
 
+ThesisMode thesis_mode(const std::string& mode) {
+  return mode == "six-dof"    ? ThesisMode::six_dof
+         : mode == "hybrid"   ? ThesisMode::hybrid
+         : mode == "position" ? ThesisMode::position
+                              : ThesisMode::automatic;
+}
+
 std::variant<ThesisMethod, JointMethod> method_named(const TrackingConfig& config,
                                                      std::span<const CameraConfig> cameras,
                                                      std::span<const HeadConfig> heads) {
-  if (config.method == "thesis") return ThesisMethod(cameras, heads.front());
+  if (config.method == "thesis")
+    return ThesisMethod(cameras, heads.front(), {.mode = thesis_mode(config.mode)});
   if (config.method == "joint")
     return JointMethod(cameras, heads, {.position_only = config.mode == "position"});
   throw Error({"there is no tracking method \"" + config.method + "\"", "--method",

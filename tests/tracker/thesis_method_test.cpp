@@ -1,4 +1,5 @@
-// The thesis' frame and its pose from dots, without noise and without rounding.
+// The thesis' frame and its 6 DoF tracking from dots without noise and without rounding, and which
+// of its ways of tracking is taken. Hybrid tracking has its own file.
 #include "tracker/thesis_method.h"
 
 #include <gtest/gtest.h>
@@ -6,43 +7,19 @@
 #include <random>
 
 #include "core/error.h"
+#include "tests/tracker/thesis_views.h"
 
 namespace vindu {
 namespace {
 
 using std::chrono::milliseconds;
 
-std::vector<CameraConfig> two_cameras() {
-  std::vector<CameraConfig> cameras(2);
-  cameras[0].room_from_camera = look_at({-1, 2.3, 5}, {0, 1.65, 2});
-  cameras[1].room_from_camera = look_at({1, 2.3, 5}, {0, 1.65, 2});
-  for (auto& camera : cameras) camera.intrinsics.distortion = {0.03, -0.02, 0.001, 0.001, 0};
-  return cameras;
-}
+std::vector<CameraConfig> two_cameras() { return cameras_aside(18.4); }
 
-Quat turned(double yaw_deg, double pitch_deg, double roll_deg) {
-  return Quat(Eigen::AngleAxisd(radians(yaw_deg), Vec3::UnitY()) *
-              Eigen::AngleAxisd(radians(pitch_deg), Vec3::UnitX()) *
-              Eigen::AngleAxisd(radians(roll_deg), Vec3::UnitZ()));
-}
-
-// What a perfect camera would report, in the order that `order` gives.
-Observation perfect_view(const std::vector<CameraConfig>& cameras, int camera,
-                         const HeadConfig& head, const Rigid3& room_from_head, Time arrival,
-                         const std::vector<std::size_t>& order = {2, 0, 1}) {
-  const CameraModel model(cameras[static_cast<std::size_t>(camera)]);
-  Observation seen{camera, arrival, {}};
-  for (const std::size_t led : order) {
-    const Vec3 x_in_room = room_from_head * head.leds_in_head[led];
-    const Vec2 raw_px = *model.project(model.camera_from_room() * x_in_room);
-    seen.dots.push_back({raw_px.x(), raw_px.y(), 3});
-  }
-  return seen;
-}
-
-ThesisResult result_for(const HeadConfig& head, const Rigid3& room_from_head) {
+ThesisResult result_for(const HeadConfig& head, const Rigid3& room_from_head,
+                        ThesisMode mode = ThesisMode::automatic) {
   const auto cameras = two_cameras();
-  ThesisMethod method(cameras, head);
+  ThesisMethod method(cameras, head, {.mode = mode});
   const Time now{std::chrono::seconds(1)};
   method.absorb(perfect_view(cameras, 0, head, room_from_head, now));
   method.absorb(perfect_view(cameras, 1, head, room_from_head, now, {1, 2, 0}));
@@ -140,8 +117,9 @@ TEST(ThesisMethod, says_why_there_is_no_pose) {
   const Rigid3 room_from_head{Quat::Identity(), {0, 1.75, 2.2}};
   const Time now{std::chrono::seconds(1)};
   const auto reason = [&](const std::vector<std::size_t>& first,
-                          const std::vector<std::size_t>& second) {
-    ThesisMethod method(cameras, head);
+                          const std::vector<std::size_t>& second,
+                          ThesisMode mode = ThesisMode::six_dof) {
+    ThesisMethod method(cameras, head, {.mode = mode});
     method.absorb(perfect_view(cameras, 0, head, room_from_head, now, first));
     method.absorb(perfect_view(cameras, 1, head, room_from_head, now, second));
     const ThesisResult result = method.track(now);
@@ -153,6 +131,8 @@ TEST(ThesisMethod, says_why_there_is_no_pose) {
   EXPECT_EQ(reason({0, 1, 2}, {0, 1, 2, 1}), NoPose::unequal_counts);
   EXPECT_EQ(reason({0, 1, 2, 1}, {0, 1, 2, 1}), NoPose::too_many_dots);
   EXPECT_EQ(reason({1, 1, 1}, {1, 1, 1}), NoPose::degenerate);
+  EXPECT_EQ(reason({0, 1, 2}, {}, ThesisMode::position), NoPose::too_few_dots);
+  EXPECT_EQ(reason({0, 1}, {}, ThesisMode::automatic), NoPose::too_few_dots);
 }
 
 TEST(ThesisMethod, finds_no_pose_where_the_rays_run_apart) {
@@ -172,8 +152,9 @@ TEST(ThesisMethod, finds_no_pose_where_the_rays_run_apart) {
 }
 
 TEST(ThesisMethod, refuses_a_head_turned_so_far_that_one_camera_sees_the_leds_in_another_order) {
-  const ThesisResult result = result_for(
-      HeadConfig{}, {turned(-35, 0, 0), {0, 1.75, 2.1}});  // 54 degrees off the right camera
+  // 54 degrees off the right camera.
+  const ThesisResult result =
+      result_for(HeadConfig{}, {turned(-35, 0, 0), {0, 1.75, 2.1}}, ThesisMode::six_dof);
   EXPECT_FALSE(result.pose);
   EXPECT_EQ(result.reason, NoPose::rays_do_not_meet);
 }
@@ -191,6 +172,121 @@ TEST(ThesisMethod, takes_a_camera_silent_for_over_100_ms_as_blind) {
   EXPECT_EQ(later.reason, NoPose::too_few_dots);
 }
 
+/// A head that both cameras see whole at first, and less of afterwards.
+class Sighted {
+ public:
+  explicit Sighted(ThesisMode mode, const HeadConfig& head = {})
+      : head_(head), method_(cameras_, head, {.mode = mode}) {}
+
+  ThesisResult see(const Rigid3& room_from_head, const std::vector<std::size_t>& first,
+                   const std::vector<std::size_t>& second) {
+    now_ += milliseconds(17);
+    method_.absorb(perfect_view(cameras_, 0, head_, room_from_head, now_, first));
+    method_.absorb(perfect_view(cameras_, 1, head_, room_from_head, now_, second));
+    return method_.track(now_);
+  }
+  void wait(Duration duration) { now_ += duration; }
+
+ private:
+  std::vector<CameraConfig> cameras_ = two_cameras();
+  HeadConfig head_;
+  ThesisMethod method_;
+  Time now_{};
+};
+
+const std::vector<std::size_t> kAll = {0, 1, 2};
+const Rigid3 kTurnedHead{turned(15, 5, -3), {0.05, 1.75, 2.1}};
+
+TEST(ThesisMethod, with_one_led_in_common_knows_the_position_and_keeps_the_last_rotation) {
+  for (const std::size_t led : kAll) {
+    Sighted head(ThesisMode::automatic);
+    ASSERT_EQ(head.see(kTurnedHead, kAll, kAll).pose->level, TrackingLevel::six_dof);
+    const Rigid3 moved{kTurnedHead.rotation, kTurnedHead.translation + Vec3(0.02, -0.01, 0.01)};
+    const ThesisResult result = head.see(moved, {led}, {led});
+    ASSERT_TRUE(result.pose);
+    EXPECT_EQ(result.pose->level, TrackingLevel::position);
+    EXPECT_LT((result.pose->room_from_head.translation - moved.translation).norm(), 1e-6);
+    EXPECT_LT(result.pose->room_from_head.rotation.angularDistance(moved.rotation), 1e-6);
+    EXPECT_EQ(result.points.size(), 1u);
+  }
+}
+
+TEST(ThesisMethod, knows_the_position_where_one_camera_sees_the_leds_in_another_order) {
+  Sighted head(ThesisMode::automatic);
+  const Vec3 place(0, 1.75, 2.1);
+  for (double yaw_deg = 0; yaw_deg > -36; yaw_deg -= 5) {
+    const ThesisResult result = head.see({turned(yaw_deg, 0, 0), place}, kAll, kAll);
+    ASSERT_TRUE(result.pose) << yaw_deg;
+    EXPECT_EQ(result.pose->level, yaw_deg > -27 ? TrackingLevel::six_dof : TrackingLevel::position);
+    EXPECT_LT((result.pose->room_from_head.translation - place).norm(), 0.04);
+  }
+}
+
+TEST(ThesisMethod, takes_a_lone_point_of_a_head_it_has_not_seen_before_for_the_rear_led) {
+  Sighted head(ThesisMode::automatic);
+  const ThesisResult result = head.see(kTurnedHead, {1}, {1});
+  ASSERT_TRUE(result.pose);
+  EXPECT_EQ(result.pose->level, TrackingLevel::position);
+  EXPECT_LT((result.pose->room_from_head.translation - kTurnedHead.translation).norm(), 1e-6);
+  EXPECT_EQ(result.pose->room_from_head.rotation.angularDistance(Quat::Identity()), 0);
+}
+
+TEST(ThesisMethod, tells_by_its_rank_which_led_a_camera_that_sees_all_has_in_common) {
+  // Tilted: the rays to LEDs of one height meet where there is none.
+  const Rigid3 tilted{turned(0, 0, 6), kTurnedHead.translation};
+  for (const std::size_t led : kAll) {
+    Sighted head(ThesisMode::automatic);
+    const ThesisResult result = head.see(tilted, kAll, {led});
+    ASSERT_TRUE(result.pose);
+    EXPECT_LT((result.pose->room_from_head.translation - tilted.translation).norm(), 0.02) << led;
+  }
+}
+
+TEST(ThesisMethod, does_not_believe_that_a_head_leaps) {
+  Sighted head(ThesisMode::automatic);
+  head.see(kTurnedHead, kAll, kAll);
+  const Rigid3 elsewhere{kTurnedHead.rotation, kTurnedHead.translation + Vec3(0.4, 0, 0)};
+  EXPECT_FALSE(head.see(elsewhere, {1}, {1}).pose);
+  head.wait(milliseconds(300));  // after which it may be anywhere
+  EXPECT_TRUE(head.see(elsewhere, {1}, {1}).pose);
+}
+
+TEST(ThesisMethod, forced_to_position_never_measures_the_rotation) {
+  Sighted head(ThesisMode::position);
+  for (const auto& seen : {kAll, {1}, kAll}) {
+    const ThesisResult result = head.see(kTurnedHead, seen, seen);
+    ASSERT_TRUE(result.pose);
+    EXPECT_EQ(result.pose->level, TrackingLevel::position);
+    EXPECT_EQ(result.pose->room_from_head.rotation.angularDistance(Quat::Identity()), 0);
+    EXPECT_LT((result.pose->room_from_head.translation - kTurnedHead.translation).norm(), 0.04);
+  }
+}
+
+TEST(ThesisMethod, forced_to_position_is_content_with_one_led) {
+  HeadConfig single;
+  single.leds_in_head = {{0, 0.05, 0.01}};
+  Sighted head(ThesisMode::position, single);
+  const Rigid3 facing{Quat::Identity(), kTurnedHead.translation};
+  const ThesisResult result = head.see(facing, {0}, {0});
+  ASSERT_TRUE(result.pose);
+  EXPECT_LT((result.pose->room_from_head.translation - facing.translation).norm(), 1e-6);
+}
+
+TEST(ThesisMethod, forced_to_a_better_way_has_no_pose_where_that_fails) {
+  using Level = TrackingLevel;
+  const auto level = [](ThesisMode mode, const std::vector<std::size_t>& first,
+                        const std::vector<std::size_t>& second) {
+    const ThesisResult result = Sighted(mode).see(kTurnedHead, first, second);
+    return result.pose ? result.pose->level : Level::lost;
+  };
+  EXPECT_EQ(level(ThesisMode::six_dof, kAll, kAll), Level::six_dof);
+  EXPECT_EQ(level(ThesisMode::six_dof, {0, 1}, {1, 2}), Level::lost);
+  EXPECT_EQ(level(ThesisMode::hybrid, kAll, kAll), Level::six_dof);
+  EXPECT_EQ(level(ThesisMode::hybrid, {0, 1}, {1, 2}), Level::hybrid);
+  EXPECT_EQ(level(ThesisMode::hybrid, kAll, {1}), Level::lost);  // each must see two (A.7)
+  EXPECT_EQ(level(ThesisMode::automatic, kAll, {1}), Level::position);
+}
+
 TEST(ThesisMethod, refuses_what_it_cannot_work_with) {
   const auto cameras = two_cameras();
   HeadConfig four, straight;
@@ -198,6 +294,8 @@ TEST(ThesisMethod, refuses_what_it_cannot_work_with) {
   straight.leds_in_head = {{-0.1, 0, 0}, {0, 0, 0}, {0.1, 0, 0}};
   EXPECT_THROW(ThesisMethod(cameras, four), Error);
   EXPECT_THROW(ThesisMethod(cameras, straight), Error);
+  EXPECT_THROW(ThesisMethod(cameras, straight, {.mode = ThesisMode::hybrid}), Error);
+  EXPECT_NO_THROW(ThesisMethod(cameras, straight, {.mode = ThesisMode::position}));
   EXPECT_THROW(ThesisMethod(std::span(cameras).first(1), HeadConfig{}), Error);
 }
 

@@ -83,6 +83,18 @@ TEST_F(TrackerTest, counts_reports_frames_and_losses_by_reason) {
   EXPECT_EQ(counts.frames_lost_by_reason[static_cast<std::size_t>(NoPose::too_few_dots)], 1u);
 }
 
+TEST_F(TrackerTest, tracks_by_the_way_of_the_thesis_that_the_mode_names) {
+  const auto level_in_mode = [&](const std::string& mode) {
+    Tracker tracker(cameras_, heads_, room_from_wall_, {.method = "thesis", .mode = mode});
+    see_head(tracker, Time{});
+    return track(tracker, Time{})->level;
+  };
+  EXPECT_EQ(level_in_mode("auto"), TrackingLevel::six_dof);
+  EXPECT_EQ(level_in_mode("six-dof"), TrackingLevel::six_dof);
+  EXPECT_EQ(level_in_mode("hybrid"), TrackingLevel::six_dof);
+  EXPECT_EQ(level_in_mode("position"), TrackingLevel::position);
+}
+
 TEST_F(TrackerTest, refuses_a_method_it_does_not_know) {
   EXPECT_THROW(Tracker(cameras_, heads_, room_from_wall_, {.method = "magic"}), Error);
 }
