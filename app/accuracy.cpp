@@ -122,8 +122,8 @@ bool is_usual(const MovingRow& row, Link link) {
 }  // namespace
 
 std::optional<double> MovingRow::over_thesis() const {
-  if (!thesis || thesis->found == 0) return std::nullopt;
-  return study.joint.eye_rms_m / thesis->eye_rms_m;
+  if (!thesis || thesis->six_dof.found == 0) return std::nullopt;
+  return study.joint.eye_rms_m / thesis->six_dof.eye_rms_m;
 }
 
 Accuracy measure_accuracy(const AccuracyOptions& options,
@@ -150,7 +150,7 @@ std::vector<AccuracyTarget> targets_of(const Accuracy& accuracy) {
   add_target(targets, "single frame, l-m-r helmet, base 2 m, 2 cameras: over thesis", 0.6,
              accuracy.frames, [](const FrameRow& row) -> Ratio {
                if (leds_of(row.options.head) != 3 || row.options.row.cameras != 2 ||
-                   row.options.row.baseline_m != 2)
+                   row.options.row.baseline_m != 2 || row.options.dots_of_last)
                  return std::nullopt;
                return row.study.joint_over_thesis;
              });

@@ -32,9 +32,10 @@ struct FrameRow {
 struct MovingRow {
   MovingStudyOptions options;
   MovingStudy study;
-  std::optional<TrialErrors> thesis;
+  std::optional<ThesisErrors> thesis;
 
   double over_fixed() const { return study.joint.eye_rms_m / study.best_fixed.eye_rms_m; }
+  /// Over the frames alone that it tracks with six degrees of freedom: its best.
   std::optional<double> over_thesis() const;
 };
 

@@ -55,7 +55,7 @@ std::vector<Line> lines_of(const std::vector<MovingRow>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const MovingRow& row = rows[i];
     Line line{.name = name_of(row), .ours_m = row.study.joint.eye_rms_m};
-    if (row.over_thesis()) line.thesis_m = row.thesis->eye_rms_m;
+    if (row.over_thesis()) line.thesis_m = row.thesis->six_dof.eye_rms_m;
     line.best_m = row.study.best_fixed.eye_rms_m;
     line.starts_group = i > 0 && group(row) != group(rows[i - 1]);
     lines.push_back(line);

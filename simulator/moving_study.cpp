@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 #include "core/wall.h"
 #include "simulator/motions.h"
@@ -60,6 +61,14 @@ TrialOptions trial_of(const MovingStudyOptions& options, std::uint64_t seed) {
   return trial;
 }
 
+ThesisErrors thesis_errors(const std::vector<TrialFrame>& frames) {
+  std::vector<TrialFrame> six_dof;
+  std::ranges::copy_if(frames, std::back_inserter(six_dof), [](const TrialFrame& frame) {
+    return frame.level == TrackingLevel::six_dof;
+  });
+  return {errors_of(frames), errors_of(six_dof)};
+}
+
 }  // namespace
 
 std::string_view name_of(HeadMoves moves) {
@@ -85,7 +94,7 @@ MovingStudy study_moving(const MovingStudyOptions& options) {
   }
   MovingStudy study;
   study.joint = errors_of(frames[0]);
-  if (by_thesis) study.thesis = errors_of(frames[1]);
+  if (by_thesis) study.thesis = thesis_errors(frames[1]);
   for (std::size_t i = 0; i < kFixedNoises.size(); ++i) {
     const TrialErrors errors = errors_of(frames[methods.size() + i]);
     if (errors.found > 0 && (i == 0 || errors.eye_rms_m < study.best_fixed.eye_rms_m)) {

@@ -33,11 +33,17 @@ struct MovingStudyOptions {
   std::uint64_t seed = 1;
 };
 
+/// With three LEDs and two cameras.
+struct ThesisErrors {
+  TrialErrors all;      ///< each frame in the best of its ways that the dots allow
+  TrialErrors six_dof;  ///< of the frames that it tracks with six degrees of freedom, alone
+};
+
 struct MovingStudy {
   TrialErrors joint;
   TrialErrors best_fixed;  ///< of filters that know one motion: the one that this motion suits best
   MotionNoise best_noise;
-  std::optional<TrialErrors> thesis;  ///< with three LEDs and two cameras
+  std::optional<ThesisErrors> thesis;
 };
 
 MovingStudy study_moving(const MovingStudyOptions& options);

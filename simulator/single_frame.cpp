@@ -29,6 +29,7 @@ class Tally {
     ++right_;
   }
   void add_wrong() { ++wrong_; }
+  void add_level(TrackingLevel level) { ++levels_.at(static_cast<std::size_t>(level)); }
 
   bool empty() const { return right_ == 0; }
   double eye_m() const { return std::sqrt(eye2_ / std::max(1, right_)); }
@@ -40,11 +41,13 @@ class Tally {
             .eye_m = eye_m(),
             .lateral_m = std::sqrt((eye2_ - depth2_) / right),
             .depth_m = std::sqrt(depth2_ / right),
-            .rotation_rad = std::sqrt(rotation2_ / right)};
+            .rotation_rad = std::sqrt(rotation2_ / right),
+            .levels = {levels_[0] / all, levels_[1] / all, levels_[2] / all}};
   }
 
  private:
   int right_ = 0, wrong_ = 0;
+  std::array<int, 3> levels_{};  // those that the thesis' method has
   double eye2_ = 0, depth2_ = 0, rotation2_ = 0;
 };
 
@@ -66,10 +69,8 @@ class Study {
       onlookers_.emplace_back(configs_[i]);
       sensors_.push_back(sensor(configs_[i], options.head, i + 1));
     }
-    if (options.dots_of_last) return;
-    const std::vector outermost = {configs_.front(), configs_.back()};
-    thesis_.emplace(outermost, HeadConfig{});
-    for (const CameraConfig& camera : outermost)
+    outermost_ = {configs_.front(), configs_.back()};
+    for (const CameraConfig& camera : outermost_)
       thesis_sensors_.push_back(sensor(camera, HeadConfig{}, 100 + thesis_sensors_.size()));
   }
 
@@ -80,7 +81,7 @@ class Study {
       ++(judge(head_somewhere(random_)) ? study.poses : study.passed_over);
     study.joint = joint_tally_.errors(study.poses);
     study.bound = bound_tally_.errors(study.poses);
-    if (thesis_) study.thesis = thesis_tally_.errors(study.poses);
+    if (thesis_takes_part()) study.thesis = thesis_tally_.errors(study.poses);
     if (!thesis_of_both_.empty())
       study.joint_over_thesis = joint_of_both_.eye_m() / thesis_of_both_.eye_m();
     return study;
@@ -108,9 +109,9 @@ class Study {
       const PoseBound bound = unaided_bound_of(sight);
       bound_tally_.add({bound.eye_m, bound.depth_m, bound.rotation_rad});
     }
-    if (!thesis_) return true;
-    const auto of_thesis =
-        error_of(find_by_thesis(truth), HeadConfig{}, truth, axis, thesis_tally_);
+    if (!thesis_takes_part()) return true;
+    const auto by_thesis = find_by_thesis(options_.dots_of_last ? pictures : whole_pictures(truth));
+    const auto of_thesis = error_of(by_thesis, HeadConfig{}, truth, axis, thesis_tally_);
     if (!error || !of_thesis) return true;
     joint_of_both_.add(*error);
     thesis_of_both_.add(*of_thesis);
@@ -170,12 +171,25 @@ class Study {
     return found->fit.room_from_head;
   }
 
-  std::optional<Rigid3> find_by_thesis(const Rigid3& truth) {
-    now_ += std::chrono::seconds(1);
-    for (std::size_t i = 0; i < thesis_sensors_.size(); ++i)
-      thesis_->absorb({static_cast<int>(i), now_, picture(thesis_sensors_[i], truth)});
-    const ThesisResult result = thesis_->track(now_);
+  bool thesis_takes_part() const {
+    return !options_.dots_of_last ||
+           (configs_.size() == 2 && options_.head.leds_in_head == HeadConfig{}.leds_in_head);
+  }
+
+  Pictures whole_pictures(const Rigid3& truth) {
+    Pictures pictures;
+    for (EmulatedSensor& sensor : thesis_sensors_) pictures.push_back(picture(sensor, truth));
+    return pictures;
+  }
+
+  std::optional<Rigid3> find_by_thesis(const Pictures& pictures) {
+    const auto mode = options_.dots_of_last ? ThesisMode::automatic : ThesisMode::six_dof;
+    ThesisMethod method(outermost_, HeadConfig{}, {.mode = mode});
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+      method.absorb({static_cast<int>(i), Time{}, pictures[i]});
+    const ThesisResult result = method.track(Time{});
     if (!result.pose) return std::nullopt;
+    thesis_tally_.add_level(result.pose->level);
     return result.pose->room_from_head;
   }
 
@@ -201,10 +215,9 @@ class Study {
   std::vector<CameraModel> models_;
   std::vector<Onlooker> onlookers_;
   std::vector<EmulatedSensor> sensors_;
-  std::optional<ThesisMethod> thesis_;
+  std::vector<CameraConfig> outermost_;
   std::vector<EmulatedSensor> thesis_sensors_;
   Random random_;
-  Time now_{};
   Tally joint_tally_, bound_tally_, thesis_tally_;
   Tally joint_of_both_, thesis_of_both_;
 };

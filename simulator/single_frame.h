@@ -3,6 +3,7 @@
 // True poses and labels are used to judge, never to find.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -48,6 +49,9 @@ struct FrameErrors {
   double lateral_m = 0;  ///< across the cameras' view, both axes
   double depth_m = 0;    ///< along it
   double rotation_rad = 0;
+  /// The thesis' method alone: shares of the poses that it found with six degrees of freedom, in
+  /// its hybrid way, by position.
+  std::array<double, 3> levels{};
 };
 
 struct FrameStudy {
@@ -55,7 +59,8 @@ struct FrameStudy {
   int passed_over = 0;  ///< the helmet hides an LED, or it is outside a picture
   FrameErrors joint;
   FrameErrors bound;  ///< over the poses that the joint method finds right
-  /// In full sight: with its own l-m-r helmet in the same poses, by the outermost cameras.
+  /// With its own l-m-r helmet in the same poses, by the outermost cameras. In full sight its 6 DoF
+  /// tracking; in partial sight, with this helmet and two cameras only, the best of its ways.
   std::optional<FrameErrors> thesis;
   /// Ratio of the eye's errors, joint over thesis, over the poses that both find right.
   std::optional<double> joint_over_thesis;

@@ -66,11 +66,13 @@ double rms(double sum_of_squares, std::size_t count) {
 TrialErrors errors_of(const std::vector<TrialFrame>& frames) {
   std::vector<double> eyes_m;
   double eye2 = 0, turn2 = 0;
+  std::array<double, 4> levels{};
   for (const TrialFrame& frame : frames) {
     if (frame.level >= TrackingLevel::held) continue;
     eyes_m.push_back(frame.eye_error_m);
     eye2 += frame.eye_error_m * frame.eye_error_m;
     turn2 += frame.turn_error_rad * frame.turn_error_rad;
+    levels[static_cast<std::size_t>(frame.level)] += 1 / static_cast<double>(frames.size());
   }
   if (eyes_m.empty()) return {};
   std::ranges::sort(eyes_m);
@@ -79,7 +81,8 @@ TrialErrors errors_of(const std::vector<TrialFrame>& frames) {
           .eye_rms_m = rms(eye2, eyes_m.size()),
           .eye_p95_m = eyes_m[p95],
           .eye_max_m = eyes_m.back(),
-          .turn_rms_rad = rms(turn2, eyes_m.size())};
+          .turn_rms_rad = rms(turn2, eyes_m.size()),
+          .levels = levels};
 }
 
 std::vector<std::vector<TrialFrame>> run_trial(const TrialOptions& options,

@@ -3,6 +3,7 @@
 // arrivals alone reach the tracker.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct TrialErrors {
   double found = 0;  ///< share of the frames with a level above held
   double eye_rms_m = 0, eye_p95_m = 0, eye_max_m = 0;
   double turn_rms_rad = 0;
+  std::array<double, 4> levels{};  ///< shares of the frames, by TrackingLevel down to bearing
 };
 TrialErrors errors_of(const std::vector<TrialFrame>& frames);
 

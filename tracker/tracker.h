@@ -60,7 +60,7 @@ class Tracker {
   const TrackerCounts& counts() const { return counts_; }
   /// In the order of the cameras; empty for the thesis' method, which knows nothing of that.
   std::vector<CameraHealth> camera_health() const;
-  /// The LEDs that the thesis' method triangulated last, with their errors; may be empty.
+  /// The LEDs that the thesis' method found last, with their errors; may be empty.
   std::span<const TriangulatedPoint> points() const { return points_; }
 
  private:

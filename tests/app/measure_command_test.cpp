@@ -22,6 +22,7 @@ TEST_F(MeasureCommand, PrintsTheSameFiguresForTheSameSeed) {
               AllOf(HasSubstr(R"("distance_m":3,"baseline_m":2,"cameras":2,"leds":3,)"),
                     HasSubstr(R"("ours":{"eye_mm":)"), HasSubstr(R"("bound":{"eye_mm":)"),
                     HasSubstr(R"("ours_over_bound":1.0)"), HasSubstr(R"("thesis":{"eye_mm":)"),
+                    HasSubstr(R"("thesis_levels":{"six_dof":0,"hybrid":)"),
                     HasSubstr(R"("motion":"still")"), HasSubstr(R"("ours_over_best_fixed":)"),
                     HasSubstr(R"("met":true)"), HasSubstr(path("plots/accuracy.png"))));
   EXPECT_EQ(result.out.find("nan"), std::string::npos);
