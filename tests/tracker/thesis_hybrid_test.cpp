@@ -107,7 +107,8 @@ TEST(ThesisHybrid, needs_one_led_in_common_and_all_three_in_sight) {
   EXPECT_FALSE(best({0, 1}, {2}));
   EXPECT_FALSE(best({0, 1, 2}, {1}));
   EXPECT_FALSE(best({}, {0, 1, 2}));
-  EXPECT_TRUE(candidates_of(18.4, room_from_head, {0, 1, 2}, {0, 1, 2}).empty());
+  for (const Leds& second : {Leds{1}, Leds{0, 1, 2}, Leds{0, 1, 1, 2}})
+    EXPECT_TRUE(candidates_of(18.4, room_from_head, {0, 1, 2}, second).empty());
 }
 
 TEST(ThesisHybrid, takes_the_hits_that_have_the_known_distance_from_each_other) {
