@@ -125,7 +125,8 @@ ThesisMethod::Found ThesisMethod::hybrid(const Rays& first, const Rays& second, 
   const auto [left, middle, right] = best->lmr_in_room();
   const auto room_from_lmr = lmr_frame(left, middle, right);
   if (!room_from_lmr) return {};
-  return {.room_from_head = *room_from_lmr * lmr_from_head_,
+  return {.level = TrackingLevel::hybrid,
+          .room_from_head = *room_from_lmr * lmr_from_head_,
           .points = {best->points.begin(), best->points.end()}};
 }
 
@@ -137,8 +138,9 @@ ThesisMethod::Found ThesisMethod::position(const Rays& first, const Rays& second
   const bool knows = knows_where_it_was(now);
   const std::size_t leds = leds_in_head_.size();
   const Quat& rotation = last_room_from_head_.rotation;
-  Found best{.reason =
-                 first.empty() || second.empty() ? NoPose::too_few_dots : NoPose::rays_do_not_meet};
+  Found best{
+      .level = TrackingLevel::position,
+      .reason = first.empty() || second.empty() ? NoPose::too_few_dots : NoPose::rays_do_not_meet};
   double least_m = knows ? options_.largest_step_m : options_.largest_gap_m;
   const auto consider = [&](const TriangulatedPoint& point, std::size_t led, double cost_m) {
     if (cost_m > least_m) return;
@@ -162,32 +164,31 @@ ThesisMethod::Found ThesisMethod::position(const Rays& first, const Rays& second
   return best;
 }
 
-ThesisResult ThesisMethod::track(Time now) {
-  const Rays first = sorted_rays(0, now), second = sorted_rays(1, now);
+/// Without a pose: the reason and the points of the best way that was tried.
+ThesisMethod::Found ThesisMethod::find(const Rays& first, const Rays& second, Time now) const {
   const ThesisMode mode = options_.mode;
-  const bool any = mode == ThesisMode::automatic;
-  TrackingLevel level =
-      mode == ThesisMode::position ? TrackingLevel::position : TrackingLevel::six_dof;
-  Found found =
-      level == TrackingLevel::position ? position(first, second, now) : six_dof(first, second);
-  const auto fall_back = [&](TrackingLevel to, Found next) {
-    if (!next.room_from_head) return;
-    found = std::move(next);
-    level = to;
-  };
-  if (!found.room_from_head && (any || mode == ThesisMode::hybrid))
-    fall_back(TrackingLevel::hybrid, hybrid(first, second, now));
-  if (!found.room_from_head && any)
-    fall_back(TrackingLevel::position, position(first, second, now));
+  if (mode == ThesisMode::position) return position(first, second, now);
+  Found whole = six_dof(first, second);
+  if (whole.room_from_head || mode == ThesisMode::six_dof) return whole;
+  Found parts = hybrid(first, second, now);
+  if (parts.room_from_head) return parts;
+  if (mode == ThesisMode::hybrid) return whole;
+  Found point = position(first, second, now);
+  return point.room_from_head ? point : whole;
+}
+
+ThesisResult ThesisMethod::track(Time now) {
+  Found found = find(sorted_rays(0, now), sorted_rays(1, now), now);
   ThesisResult result{.pose = {}, .reason = found.reason, .points = std::move(found.points)};
   if (!found.room_from_head) return result;
   last_room_from_head_ = *found.room_from_head;
   last_found_ = now;
-  result.pose.emplace();
-  result.pose->capture_time = std::max(freshest_[0]->arrival, freshest_[1]->arrival);
-  result.pose->time = result.pose->capture_time;
-  result.pose->level = level;
-  result.pose->room_from_head = last_room_from_head_;
+  PoseSample pose;
+  pose.capture_time = std::max(freshest_[0]->arrival, freshest_[1]->arrival);
+  pose.time = pose.capture_time;
+  pose.level = found.level;
+  pose.room_from_head = last_room_from_head_;
+  result.pose = pose;
   return result;
 }
 

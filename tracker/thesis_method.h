@@ -84,6 +84,7 @@ class ThesisMethod {
 
  private:
   struct Found {
+    TrackingLevel level = TrackingLevel::six_dof;
     std::optional<Rigid3> room_from_head = {};
     NoPose reason{};
     std::vector<TriangulatedPoint> points = {};
@@ -91,6 +92,7 @@ class ThesisMethod {
   using Rays = std::vector<Ray>;
 
   Rays sorted_rays(std::size_t camera, Time now) const;
+  Found find(const Rays& first, const Rays& second, Time now) const;
   Found six_dof(const Rays& first, const Rays& second) const;
   Found hybrid(const Rays& first, const Rays& second, Time now) const;
   Found position(const Rays& first, const Rays& second, Time now) const;
