@@ -35,7 +35,7 @@ struct MovingRow {
   std::optional<ThesisErrors> thesis;
 
   double over_fixed() const { return study.joint.eye_rms_m / study.best_fixed.eye_rms_m; }
-  /// Over the frames alone that it tracks with six degrees of freedom: its best.
+  /// Over the frames alone that it tracks with six degrees of freedom.
   std::optional<double> over_thesis() const;
 };
 

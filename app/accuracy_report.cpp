@@ -30,6 +30,7 @@ std::string frame_line(const FrameRow& row) {
       degrees(bound.rotation_rad), row.over_bound());
   const auto& thesis = row.study.thesis;
   if (!thesis) return line + "\n";
+  if (thesis->found == 0) return line + fmt::format("{:>6}\n", kNone);
   return line + fmt::format("{:>6.1f}{:>6.2f}{:>10}{:>6}{:>6}\n", 1e3 * thesis->eye_m,
                             degrees(thesis->rotation_rad), levels_text(thesis->levels),
                             percent(thesis->wrong), ratio(row.study.joint_over_thesis));
