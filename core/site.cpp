@@ -1,7 +1,9 @@
 #include "core/site.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 #include "core/internal/calibration_reader.h"
@@ -172,6 +174,35 @@ void read_scene(TomlTable& root, SceneConfig& scene) {
   table->finish();
 }
 
+FrameLock lock_from(const std::string& name) {
+  return name == "timed" ? FrameLock::timed : name == "free" ? FrameLock::free : FrameLock::barrier;
+}
+
+/// A name that goes into the network's settings as it is.
+std::optional<std::string> read_word(TomlTable& table, const std::string& name) {
+  const auto word = table.text(name);
+  const auto allowed = [](unsigned char c) { return std::isalnum(c) || std::strchr("-_.:", c); };
+  if (!word || (word->size() <= 255 && std::ranges::all_of(*word, allowed))) return word;
+  table.fail(name, "is \"" + *word + "\"; up to 255 letters, digits and - _ . : are allowed");
+  return std::nullopt;
+}
+
+void read_cluster(TomlTable& root, ClusterConfig& cluster) {
+  auto table = root.table("cluster");
+  if (!table) return;
+  cluster.name = read_word(*table, "name").value_or(cluster.name);
+  cluster.master = read_word(*table, "master").value_or("");
+  if (!cluster.master.empty()) cluster.interface.clear();
+  cluster.interface = read_word(*table, "interface").value_or(cluster.interface);
+  cluster.multicast = table->boolean("multicast").value_or(cluster.multicast);
+  cluster.domain = table->integer("domain", {0, 230}).value_or(cluster.domain);
+  cluster.lock = lock_from(table->one_of("lock", {"barrier", "timed", "free"}).value_or("barrier"));
+  if (cluster.interface == "lo" && !cluster.master.empty())
+    table->fail("interface", "is \"lo\", which no other host reaches; name the one to " +
+                                 cluster.master + ", or leave it out");
+  table->finish();
+}
+
 BlobOptions read_blob_options(TomlTable& table) {
   BlobOptions blobs;
   blobs.threshold = table.integer("threshold", {1, 254}).value_or(blobs.threshold);
@@ -300,6 +331,7 @@ Site site_of(const toml::table& parsed, const std::string& file) {
   read_heads(root, site.heads);
   read_tracking(root, site);
   read_scene(root, site.scene);
+  read_cluster(root, site.cluster);
   read_cameras(root, site.cameras);
   internal::apply_calibrations(root, site);
   root.has("tile");  // read with the wall, known even where that failed

@@ -105,6 +105,23 @@ struct SceneConfig {
   Placement place = Placement::fit;
 };
 
+/// What holds the tiles' pictures together.
+enum class FrameLock {
+  barrier,  ///< all swap when the slowest living tile is ready
+  timed,    ///< the same, at a time that the master says
+  free,     ///< each tile swaps when it likes
+};
+
+/// How the wall's processes find and hear each other.
+struct ClusterConfig {
+  std::string name = "wall";     ///< walls of different names share a network unseen
+  std::string master{};          ///< host; empty: all processes are on this machine
+  std::string interface = "lo";  ///< of the network; empty: chosen by DDS
+  bool multicast = true;
+  int domain = 0;  ///< of DDS: which UDP ports
+  FrameLock lock = FrameLock::barrier;
+};
+
 struct Site {
   Wall wall;
   double rate_hz = 60;
@@ -113,6 +130,7 @@ struct Site {
   TrackingConfig tracking;
   std::vector<CameraConfig> cameras;
   SceneConfig scene;
+  ClusterConfig cluster;
 };
 
 /// With its calibration (core/calibration.h). Throws Error with one line for each thing that is

@@ -86,6 +86,17 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"AWordThatIsNotAllowed", "[scene]\nplace = \"fill\"\n",
              "FILE:9: scene.place: is \"fill\" (did you mean \"fit\"?); allowed: fit, life-size, "
              "as-is"},
+        Case{"ALockThatIsNone", "[cluster]\nlock = \"fre\"\n",
+             "FILE:9: cluster.lock: is \"fre\" (did you mean \"free\"?); allowed: barrier, timed, "
+             "free"},
+        Case{"AWallNameOfTwoWords", "[cluster]\nname = \"my wall\"\n",
+             "FILE:9: cluster.name: is \"my wall\"; up to 255 letters, digits and - _ . : are "
+             "allowed"},
+        Case{"LoopbackToAnotherHost", "[cluster]\nmaster = \"node0\"\ninterface = \"lo\"\n",
+             "FILE:10: cluster.interface: is \"lo\", which no other host reaches; name the one to "
+             "node0, or leave it out"},
+        Case{"ADomainWithoutPorts", "[cluster]\ndomain = 231\n",
+             "FILE:9: cluster.domain: is 231; a whole number from 0 to 230 is allowed"},
         Case{"TablesThatAreOne", "[camera]\nname = \"a\"\n",
              "FILE:8: camera: is a table; tables [[camera]] are allowed"},
         Case{"ATileThatIsNot", "[[tile]]\nname = \"tile-2-0\"\n",

@@ -161,6 +161,28 @@ TEST(Site, TakesACameraWithOneAngleOnlyAsHorizontal) {
               IsNearPoint(Vec3(0, 0, -1), 1e-12));
 }
 
+TEST(Site, IsOfOneMachineUnlessAMasterIsNamed) {
+  const Site alone = site_of(kGrid);
+  EXPECT_EQ(alone.cluster.name, "wall");
+  EXPECT_EQ(alone.cluster.interface, "lo");
+  EXPECT_EQ(alone.cluster.lock, FrameLock::barrier);
+  EXPECT_EQ(site_of(kGrid + "[cluster]\nmaster = \"node0\"\n").cluster.interface, "");
+}
+
+TEST(Site, ReadsHowItsProcessesFindEachOther) {
+  const ClusterConfig cluster =
+      site_of(kGrid +
+              "[cluster]\nname = \"left\"\nmaster = \"10.77.0.1\"\ninterface = \"eth1\"\n"
+              "multicast = false\ndomain = 7\nlock = \"timed\"\n")
+          .cluster;
+  EXPECT_EQ(cluster.name, "left");
+  EXPECT_EQ(cluster.master, "10.77.0.1");
+  EXPECT_EQ(cluster.interface, "eth1");
+  EXPECT_FALSE(cluster.multicast);
+  EXPECT_EQ(cluster.domain, 7);
+  EXPECT_EQ(cluster.lock, FrameLock::timed);
+}
+
 TEST(Placement, IsKnownByItsName) {
   EXPECT_EQ(placement_from("fit"), Placement::fit);
   EXPECT_EQ(placement_from("life-size"), Placement::life_size);
