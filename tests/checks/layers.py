@@ -27,6 +27,7 @@ LIBRARIES = {
     "Ceres": (r"ceres/", r"tracker/calibration/.*"),
     "zlib": (r"zlib\.h", r"tracker/.*"),
     "sdbus-c++": (r"sdbus-c\+\+/", r"tracker/.*"),
+    "Cyclone DDS": (r"dds/|wire\.h", r"cluster/[^/]*\.cpp|cluster/internal/.*"),
     "GLFW": (r"GLFW/", r"renderer/.*"),
     "EGL": (r"EGL/", r"renderer/.*"),
     "epoxy": (r"epoxy/|GL/|GLES\d?/", r"renderer/.*"),

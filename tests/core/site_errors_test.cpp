@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
              "FILE:10: cluster.interface: is \"lo\", which no other host reaches; name the one to "
              "node0, or leave it out"},
         Case{"ADomainWithoutPorts", "[cluster]\ndomain = 231\n",
-             "FILE:9: cluster.domain: is 231; a whole number from 0 to 230 is allowed"},
+             "FILE:9: cluster.domain: is 231; from 0 to 230 is allowed"},
         Case{"TablesThatAreOne", "[camera]\nname = \"a\"\n",
              "FILE:8: camera: is a table; tables [[camera]] are allowed"},
         Case{"ATileThatIsNot", "[[tile]]\nname = \"tile-2-0\"\n",

@@ -1,13 +1,48 @@
 #!/usr/bin/env bash
-# Builds the fuzzer of the Wiimote's driver with clang's libFuzzer and lets it search for a while:
-#   tests/fuzz/run.sh [SECONDS]        (default 60)
-# What it finds is left in build/fuzz as crash-...; give that file to the program to see it again.
+# Builds the fuzzers with clang's libFuzzer and lets each search for a while:
+#   tests/fuzz/run.sh [SECONDS] [NAME...]        (default 60 wiimote wire)
+# What one finds is left in build/fuzz/NAME as crash-...; give that file to its program to see it
+# again.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-folder=$root/build/fuzz
-mkdir -p "$folder/corpus"
-sources=("$root"/tracker/wiimote/{commands,exchange,gaps,report,sensitivity,session}.cpp)
-clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all \
-  -I"$root" "$root/tests/fuzz/wiimote_fuzz.cpp" "${sources[@]}" -lfmt -o "$folder/wiimote_fuzz"
-cd "$folder"
-./wiimote_fuzz -max_total_time="${1:-60}" -max_len=512 -print_final_stats=1 -verbosity=0 corpus
+seconds=${1:-60}
+names=("${@:2}")
+[[ ${#names[@]} -gt 0 ]] || names=(wiimote wire)
+
+# fuzz NAME LENGTH COMPILER-ARGUMENT...: tests/fuzz/NAME_fuzz.cpp on inputs of up to LENGTH bytes.
+fuzz() {
+  local folder=$root/build/fuzz/$1 program=$1_fuzz source=$root/tests/fuzz/$1_fuzz.cpp length=$2
+  mkdir -p "$folder/corpus"
+  clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all \
+    -I"$root" "$source" "${@:3}" -o "$folder/$program"
+  cd "$folder"
+  "./$program" -max_total_time="$seconds" -max_len="$length" -print_final_stats=1 -verbosity=0 \
+    corpus
+}
+
+wiimote() {
+  fuzz wiimote 512 "$root"/tracker/wiimote/{commands,exchange,gaps,report,sensitivity,session}.cpp \
+    -lfmt
+}
+
+# Seeded with good messages; the wire's C structs are generated as the build does it.
+wire() {
+  local generated=$root/build/fuzz/wire/generated
+  mkdir -p "$generated"
+  idlc -o "$generated" "$root/cluster/wire.idl"
+  clang -O1 -g -fsanitize=fuzzer-no-link,address,undefined -c "$generated/wire.c" \
+    -o "$generated/wire.o"
+  clang++ -std=c++20 -I"$root" -isystem /usr/include/eigen3 \
+    "$root"/tests/{fuzz/wire_seeds,cluster/random_messages}.cpp "$root"/cluster/{cdr,topics}.cpp \
+    "$root/cluster/internal/wire_types.cpp" -I"$generated" "$generated/wire.o" \
+    "$root/core/frame_state.cpp" -fsanitize=address,undefined -lddsc -o "$generated/seeds"
+  mkdir -p "$root/build/fuzz/wire/corpus"
+  "$generated/seeds" "$root/build/fuzz/wire/corpus"
+  fuzz wire 4096 -I"$generated" -isystem /usr/include/eigen3 "$root"/cluster/{cdr,topics}.cpp \
+    "$root"/cluster/internal/{participant_text,wire_types}.cpp \
+    "$root"/core/{error,frame_state}.cpp "$generated/wire.o" -lddsc
+}
+
+for name in "${names[@]}"; do
+  "$name"
+done
