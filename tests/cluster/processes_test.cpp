@@ -24,7 +24,8 @@ class Peer {
  public:
   Peer(std::string tile, std::string wall) : tile_(std::move(tile)) {
     std::string program = VINDU_BUS_PEER;
-    char* const words[] = {program.data(), tile_.data(), wall.data(), nullptr};
+    std::string role = "tile";
+    char* const words[] = {program.data(), role.data(), tile_.data(), wall.data(), nullptr};
     EXPECT_EQ(posix_spawn(&process_, words[0], nullptr, nullptr, words, environ), 0);
   }
   ~Peer() {
