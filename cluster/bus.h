@@ -19,7 +19,8 @@ struct Membership {
 };
 
 /// One participant of a wall. publish() is thread-safe; take() and wait() belong to one thread.
-/// Nobody hears himself, and no call waits for anybody but wait().
+/// Nobody hears himself. Only wait() waits, but that publish() of a reliable topic may take
+/// 10 ms where a reader is far behind.
 class Bus {
  public:
   virtual ~Bus() = default;

@@ -37,7 +37,7 @@ internal::DdsQos qos_of(Topic topic) {
   internal::DdsQos qos = internal::make_dds_qos();
   dds_qset_reliability(qos.get(),
                        rules.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
-                       DDS_MSECS(100));
+                       DDS_MSECS(10));
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, rules.depth);
   if (rules.for_late_readers) dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   if (rules.exclusive) dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);

@@ -2,6 +2,9 @@
 //   bus_peer tile NAME WALL [INTERFACE MASTER MULTICAST]    says its status every 50 ms, and ready
 //   bus_peer master COUNT WALL [INTERFACE MASTER MULTICAST] ends well when so many tiles are ready
 // for one frame, and says which. MASTER is a host, MULTICAST true or false; loopback without them.
+#include <sys/prctl.h>
+
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <set>
@@ -15,8 +18,9 @@ namespace {
 using namespace vindu;
 
 [[noreturn]] void be_a_tile(Transport& transport, const std::string& tile) {
-  const auto bus = transport.join(
-      {{Role::tile, tile, "here", "0.1"}, {Topic::ready, Topic::tile_status}, {Topic::frame}});
+  const auto bus = transport.join({{Role::tile, tile, "here", "0.1"},
+                                   {Topic::ready, Topic::tile_status},
+                                   {Topic::frame, Topic::scene}});
   Time next_status{};
   while (true) {
     const Time now = std::chrono::steady_clock::now();
@@ -48,6 +52,7 @@ void be_the_master(Transport& transport, std::size_t count) {
 int main(int count, char** begin) try {
   const std::vector<std::string> words(begin, begin + count);
   if (count != 4 && count != 7) return 2;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   ClusterConfig cluster{.name = words[3]};
   if (count == 7) {
     cluster.interface = words[4];

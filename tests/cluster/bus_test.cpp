@@ -263,11 +263,16 @@ TEST_P(BusTest, TellsWhoComesFallsSilentSpeaksAgainAndLeaves) {
 TEST_P(BusTest, NeverHearsItself) {
   const auto one = join("one", {Topic::event}, {Topic::event, Topic::presence});
   const auto other = join("other", {Topic::event}, {Topic::event});
-
   send_until_heard(*one, EventMessage{.source = "one"}, *other);
-  const EventMessage heard = send_until_heard(*other, EventMessage{.source = "other"}, *one);
 
-  EXPECT_EQ(heard.source, "other");
+  std::vector<EventMessage> heard;
+  while (heard.empty()) {
+    other->publish(EventMessage{.source = "other"});
+    one->wait({Topic::event}, in_ms(20));
+    heard = one->take<EventMessage>();
+  }
+
+  for (const EventMessage& event : heard) EXPECT_EQ(event.source, "other");
   for (const Presence& presence : one->take<Presence>()) EXPECT_EQ(presence.who.name, "other");
 }
 

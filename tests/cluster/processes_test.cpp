@@ -82,8 +82,9 @@ class Processes : public ::testing::Test {
 
   std::string wall_ = "processes" + std::to_string(getpid());
   DdsTransport transport_{{.name = wall_}};
-  std::unique_ptr<Bus> master_ = transport_.join(
-      {{Role::master, "master", "here", "0.1"}, {Topic::frame}, {Topic::ready, Topic::presence}});
+  std::unique_ptr<Bus> master_ = transport_.join({{Role::master, "master", "here", "0.1"},
+                                                  {Topic::frame, Topic::scene},
+                                                  {Topic::ready, Topic::presence}});
   std::vector<Peer> peers_;
   std::uint64_t number_ = 0;
 };
@@ -107,7 +108,10 @@ TEST_F(Processes, OneThatIsStoppedHoldsNobodyUpAndComesBackByItself) {
   await_change(*master_, PresenceChange::silent, victim.tile());
   std::set<std::string> others = names();
   others.erase(victim.tile());
-  for (int frame = 0; frame < 500; ++frame) ASSERT_EQ(ready_tiles(27), others);
+  for (std::uint64_t frame = 1; frame <= 500; ++frame) {
+    master_->publish(SceneMessage{.revision = frame, .path = std::string(1000, 'x')});
+    ASSERT_EQ(ready_tiles(27), others);
+  }
   victim.send(SIGCONT);
 
   await_change(*master_, PresenceChange::alive, victim.tile());
