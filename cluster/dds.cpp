@@ -3,6 +3,7 @@
 #include <ifaddrs.h>
 
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cstdlib>
 #include <map>
@@ -136,6 +137,7 @@ class DdsTransport::Member final : public Bus {
   struct Reader {
     dds_entity_t handle = 0;
     std::unique_ptr<SampleBuffer> buffer;
+    unsigned refused = 0;
   };
 
   dds_entity_t topic_entity(Topic topic);
@@ -244,7 +246,7 @@ std::vector<Message> DdsTransport::Member::take(Topic topic) {
   Reader& reader = readers_[static_cast<std::size_t>(topic)];
   assert(reader.handle > 0);
   std::vector<Message> messages;
-  int refused = 0;
+  const unsigned refused_before = reader.refused;
   internal::with_type_of(topic, [&]<class M>(M*) {
     if constexpr (!std::same_as<M, Presence>)
       reader.buffer->take(reader.handle, [&](const void* sample, const dds_sample_info_t& info) {
@@ -254,12 +256,14 @@ std::vector<Message> DdsTransport::Member::take(Topic topic) {
         if (message)
           messages.emplace_back(*std::move(message));
         else
-          ++refused;
+          ++reader.refused;
       });
   });
-  if (refused > 0)
-    log_warning(membership_.self.name, std::to_string(refused) + " malformed messages of topic " +
-                                           std::string(rules_of(topic).name) + " left out");
+  // At 1, 2, 4, 8 ... of them: a flood fills no log.
+  if (std::bit_width(reader.refused) != std::bit_width(refused_before))
+    log_warning(membership_.self.name, std::to_string(reader.refused) +
+                                           " malformed messages of topic " +
+                                           std::string(rules_of(topic).name) + " left out so far");
   return messages;
 }
 

@@ -1,10 +1,10 @@
 // A master in this process and 28 tiles in 28 others, on loopback.
 #include <gmock/gmock.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <set>
 
 #include "cluster/dds.h"
