@@ -21,8 +21,8 @@ fuzz() {
 }
 
 wiimote() {
-  fuzz wiimote 512 "$root"/tracker/wiimote/{commands,exchange,gaps,report,sensitivity,session}.cpp \
-    -lfmt
+  fuzz wiimote 512 "$root"/tracker/wiimote/{commands,exchange,gaps,report,session}.cpp \
+    "$root/core/infrared.cpp" -isystem /usr/include/eigen3 -lfmt
 }
 
 # Seeded with good messages; the wire's C structs are generated as the build does it.
