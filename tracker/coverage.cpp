@@ -3,10 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 
+#include "tracker/joint/pose_fit.h"
 #include "tracker/joint/rotation.h"
 
 namespace vindu {
@@ -16,7 +16,6 @@ constexpr std::size_t kMaxLeds = 16;
 constexpr std::size_t kWiimoteDots = 4;
 
 struct SeenDot {
-  std::size_t led = 0;
   double distance_m = 0;
   Mat6 information;
 };
@@ -41,22 +40,13 @@ PoseBound with_deviations(TrackingLevel level, const Mat6& covariance, const Vec
   return bound;
 }
 
-TrackingLevel level_with_memory(const Sight& sight) {
-  if (sight.leds_shared != 0 && std::popcount(sight.leds) >= 2) return TrackingLevel::hybrid;
-  if (sight.cameras >= 2) return TrackingLevel::position;
-  return sight.dots > 0 ? TrackingLevel::bearing : TrackingLevel::lost;
-}
-
 }  // namespace
 
 double rounded_noise_px(double sigma0_px) { return std::sqrt(sigma0_px * sigma0_px + 1.0 / 12); }
 
 Sight& Sight::operator+=(const Sight& other) {
   information += other.information;
-  leds_shared |= other.leds_shared | (leds & other.leds);
-  leds |= other.leds;
   dots += other.dots;
-  cameras += other.cameras;
   towards += other.towards;
   return *this;
 }
@@ -90,34 +80,29 @@ Sight Onlooker::look(const HeadConfig& head, const Rigid3& room_from_head,
     Eigen::Matrix<double, 2, 6> jacobian;
     jacobian.leftCols<3>() = dot->d_raw_d_x_in_camera * camera_from_room / *sigma_px;
     jacobian.rightCols<3>() = -jacobian.leftCols<3>() * cross_matrix(led_in_room - eye_in_room);
-    seen[count++] = {led, (led_in_room - camera_in_room).norm(), jacobian.transpose() * jacobian};
+    seen[count++] = {(led_in_room - camera_in_room).norm(), jacobian.transpose() * jacobian};
   }
   if (count == 0) return {};
   std::sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count),
             [](const SeenDot& a, const SeenDot& b) { return a.distance_m < b.distance_m; });
   count = std::min(count, most_dots_);
-  Sight sight{.dots = static_cast<int>(count), .cameras = 1};
+  Sight sight{.dots = static_cast<int>(count)};
   sight.towards = (eye_in_room - camera_in_room).normalized();
-  for (std::size_t i = 0; i < count; ++i) {
-    sight.information += seen[i].information;
-    sight.leds |= 1u << seen[i].led;
-  }
+  for (std::size_t i = 0; i < count; ++i) sight.information += seen[i].information;
   return sight;
 }
 
 PoseBound bound_of(const Sight& sight) {
-  if (sight.dots >= 4)
-    if (const PoseBound bound = unaided_bound_of(sight);
-        bound.eye_m <= kKnownEye_m && bound.rotation_rad <= kKnownRotation_rad)
-      return bound;
-  const TrackingLevel level = level_with_memory(sight);
+  const TrackingLevel level = level_of(sight.information);
   if (level > TrackingLevel::position) return {.level = level};
+  if (level == TrackingLevel::six_dof && sight.dots >= 4) return unaided_bound_of(sight);
   Mat6 information = sight.information;
   information.diagonal().tail<3>().array() +=
       1 / (kRememberedRotation_rad * kRememberedRotation_rad);
   const auto covariance = inverse_of(information);
-  return covariance ? with_deviations(level, *covariance, sight.towards)
-                    : PoseBound{.level = TrackingLevel::bearing};
+  return covariance
+             ? with_deviations(std::max(level, TrackingLevel::hybrid), *covariance, sight.towards)
+             : PoseBound{.level = TrackingLevel::bearing};
 }
 
 PoseBound unaided_bound_of(const Sight& sight) {

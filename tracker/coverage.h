@@ -4,7 +4,6 @@
 // What hides an LED is told by a function: the tracker knows no helmets.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -28,11 +27,8 @@ double rounded_noise_px(double sigma0_px);
 /// What dots say about one pose. That of several cameras is the sum.
 struct Sight {
   Mat6 information =
-      Mat6::Zero();        ///< of the eye's place (m), then the rotation about it (rad); room
-  std::uint32_t leds = 0;  ///< bit i: LED i is seen
-  std::uint32_t leds_shared = 0;  ///< by two cameras or more
+      Mat6::Zero();  ///< of the eye's place (m), then the rotation about it (rad); room
   int dots = 0;
-  int cameras = 0;              ///< that see a dot
   Vec3 towards = Vec3::Zero();  ///< sum of the directions in which they look at the eye; room
 
   Sight& operator+=(const Sight& other);
@@ -53,9 +49,6 @@ class Onlooker {
   std::size_t most_dots_;
 };
 
-/// Six-dof asks for no more than this of each, all axes together.
-constexpr double kKnownEye_m = 0.1;
-constexpr double kKnownRotation_rad = radians(10);
 /// How well a rotation is remembered, each axis, where the dots alone do not tell it.
 constexpr double kRememberedRotation_rad = radians(10);
 
@@ -69,13 +62,9 @@ struct PoseBound {
   double rotation_rad = std::numeric_limits<double>::infinity();
 };
 
-/// The level is
-/// - six_dof where four dots or more, of whichever cameras, bound eye and rotation within the
-///   limits above (three dots leave several poses open, and a line of LEDs its own axis);
-/// - hybrid where an LED is seen by two cameras and another LED by any, the rest of the rotation
-///   being remembered;
-/// - position where two cameras see a dot each and the rotation is remembered;
-/// - bearing where only one does; lost where none.
+/// The tracker's own level (level_of), but that fewer than four dots are no more than hybrid: three
+/// leave several poses open, and memory must choose. At hybrid and position the rest of the
+/// rotation is remembered.
 PoseBound bound_of(const Sight& sight);
 
 /// By the dots alone, with nothing remembered and no limits: level six_dof, or lost where they

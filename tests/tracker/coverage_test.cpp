@@ -179,14 +179,16 @@ PoseBound with_second_seeing(std::uint32_t mask, const HeadConfig& head,
   return bound(pair(3, 2), head, noise, head_at({0, 0, 0}, 0, head));
 }
 
-TEST(Coverage, LevelFollowsWhatTheCamerasShare) {
+// One dot in each of two cameras, of two LEDs, fixes one angle beside the place.
+TEST(Coverage, LevelIsThatOfTheTracker) {
   EXPECT_EQ(with_second_seeing(0b111, kThreeLeds).level, TrackingLevel::six_dof);
   EXPECT_EQ(with_second_seeing(0b001, kThreeLeds).level, TrackingLevel::six_dof);
   EXPECT_EQ(with_second_seeing(0b001, kThreeLeds, 0b011).level, TrackingLevel::hybrid);
   EXPECT_EQ(with_second_seeing(0b011, kThreeLeds, 0b011).level, TrackingLevel::hybrid);
   EXPECT_EQ(with_second_seeing(0b001, kThreeLeds, 0b001).level, TrackingLevel::position);
-  EXPECT_EQ(with_second_seeing(0b010, kThreeLeds, 0b001).level, TrackingLevel::position);
-  EXPECT_EQ(with_second_seeing(0b000, kThreeLeds).level, TrackingLevel::bearing);
+  EXPECT_EQ(with_second_seeing(0b010, kThreeLeds, 0b001).level, TrackingLevel::hybrid);
+  EXPECT_EQ(with_second_seeing(0b000, kThreeLeds).level, TrackingLevel::hybrid);
+  EXPECT_EQ(with_second_seeing(0b000, kThreeLeds, 0b001).level, TrackingLevel::bearing);
   EXPECT_EQ(with_second_seeing(0b000, kFourLeds).level, TrackingLevel::six_dof);
   EXPECT_EQ(with_second_seeing(0b000, kFourLeds, 0).level, TrackingLevel::lost);
 }

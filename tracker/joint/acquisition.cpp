@@ -1,6 +1,7 @@
 #include "tracker/joint/acquisition.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -23,21 +24,31 @@ class Contest {
     prior_.information.diagonal().tail<3>() = inverse.cwiseProduct(inverse);
   }
 
-  /// Completes a rough pose with all dots that fit it, in rounds with a shrinking gate.
+  /// Completes a rough pose with all dots that fit it, in rounds with a shrinking gate. Most rough
+  /// poses meet in a labelling that was tried before, or leave too much unexplained beside what was
+  /// found already; they end there.
   void enter(const Rigid3& rough) {
+    constexpr std::array<double, kRounds> kGates_px = {40, 12, 0};
     Rigid3 pose = rough;
     std::optional<PoseFit> fit;
     Labels labels;
-    for (const double gate_px : {40.0, 12.0, 0.0}) {
-      labels = label(pose, gate_px);
+    for (std::size_t round = 0; round < kRounds; ++round) {
+      if (round > 0 && settled_cost_ < kFar && hopeless(pose)) return;
+      labels = label(pose, kGates_px[round]);
+      if (std::ranges::find(tried_[round], labels) != tried_[round].end()) return;
+      tried_[round].push_back(labels);
       const auto sightings = sightings_of(labels);
       if (sightings.size() < 2) return;
-      fit = fit_pose(cameras_, sightings, pose, prior_);
+      const bool last = round + 1 == kRounds;
+      fit = fit_pose(cameras_, sightings, pose, prior_, {.converged = last ? 1e-6 : 1e-3});
       if (!fit) return;
       pose = fit->room_from_head;
     }
     if (sightings_of(labels).size() >= options_.least_dots) judge(*fit, std::move(labels));
   }
+
+  /// Whether some pose is fixed by the dots and leaves none over: further ones can only repeat it.
+  bool settled() const { return settled_cost_ < kFar; }
 
   std::optional<FoundHead> winner() {
     if (entries_.empty()) return std::nullopt;
@@ -60,23 +71,39 @@ class Contest {
     return cameras_[static_cast<std::size_t>(view.camera)];
   }
 
+  /// Of each dot (row) and LED (column): the square of their distance, in sigmas.
+  CostMatrix distances(const CameraView& view, const Rigid3& pose, double sigma_px) const {
+    CostMatrix costs = CostMatrix::Constant(static_cast<Eigen::Index>(view.dots_px.size()),
+                                            static_cast<Eigen::Index>(leds_.size()), kFar);
+    for (Eigen::Index led = 0; led < costs.cols(); ++led) {
+      const auto dot = dot_of_led(camera(view), pose, leds_[static_cast<std::size_t>(led)]);
+      if (!dot) continue;
+      for (Eigen::Index i = 0; i < costs.rows(); ++i)
+        costs(i, led) = (view.dots_px[static_cast<std::size_t>(i)] - dot->raw_px).squaredNorm() /
+                        (sigma_px * sigma_px);
+    }
+    return costs;
+  }
+
   /// In each view the cheapest pairing of dots and LEDs; `gate_px` zero: by the dots' own sigma.
   Labels label(const Rigid3& pose, double gate_px) const {
     Labels labels;
-    for (const CameraView& view : views_) {
-      const double sigma_px = gate_px > 0 ? gate_px / 4 : view.sigma_px;
-      CostMatrix costs = CostMatrix::Constant(static_cast<Eigen::Index>(view.dots_px.size()),
-                                              static_cast<Eigen::Index>(leds_.size()), kFar);
-      for (Eigen::Index led = 0; led < costs.cols(); ++led) {
-        const auto dot = dot_of_led(camera(view), pose, leds_[static_cast<std::size_t>(led)]);
-        if (!dot) continue;
-        for (Eigen::Index i = 0; i < costs.rows(); ++i)
-          costs(i, led) = (view.dots_px[static_cast<std::size_t>(i)] - dot->raw_px).squaredNorm() /
-                          (sigma_px * sigma_px);
-      }
-      labels.push_back(assign(costs, options_.false_dot_cost));
-    }
+    for (const CameraView& view : views_)
+      labels.push_back(assign(distances(view, pose, gate_px > 0 ? gate_px / 4 : view.sigma_px),
+                              options_.false_dot_cost));
     return labels;
+  }
+
+  /// Whether the dots lie so far from this pose's that no further round makes it a rival.
+  bool hopeless(const Rigid3& pose) const {
+    constexpr double kGain = 60;  // of a round, in sigmas squared
+    double least = 0;
+    for (const CameraView& view : views_) {
+      const CostMatrix costs = distances(view, pose, view.sigma_px);
+      for (Eigen::Index dot = 0; dot < costs.rows(); ++dot)
+        least += std::min(costs.row(dot).minCoeff(), options_.false_dot_cost);
+    }
+    return least > settled_cost_ + options_.least_margin + kGain;
   }
 
   std::vector<LedSighting> sightings_of(const Labels& labels) const {
@@ -93,14 +120,20 @@ class Contest {
     const TrackingLevel level = level_of(fit.dot_information);
     if (level > options_.least_level || fit.rms_px > options_.largest_rms_px) return;
     double cost = fit.cost;
+    bool all_explained = true;
     for (std::size_t v = 0; v < views_.size(); ++v) {
       const auto false_dots = std::ranges::count(labels[v], -1);
       const auto seen = static_cast<double>(labels[v].size()) - static_cast<double>(false_dots);
       cost += options_.false_dot_cost * static_cast<double>(false_dots) +
               options_.missing_led_cost * (static_cast<double>(leds_.size()) - seen);
+      all_explained &= false_dots == 0;
     }
+    if (all_explained && level == TrackingLevel::six_dof)
+      settled_cost_ = std::min(settled_cost_, cost);
     entries_.push_back({fit, level, std::move(labels), cost, kFar});
   }
+
+  static constexpr std::size_t kRounds = 3;
 
   static bool elsewhere(const FoundHead& a, const FoundHead& b) {
     constexpr double kSame_m = 0.03, kSame_rad = radians(12);
@@ -114,7 +147,9 @@ class Contest {
   std::span<const Vec3> leds_;
   const AcquisitionOptions& options_;
   PosePrior prior_;
+  std::array<std::vector<Labels>, kRounds> tried_;
   std::vector<FoundHead> entries_;
+  double settled_cost_ = kFar;  // of the best pose that leaves no dot over
 };
 
 /// Pairs of views with dots, the widest apart first: they fix depth best.
@@ -145,10 +180,12 @@ std::optional<FoundHead> find_head(std::span<const CameraModel> cameras,
                                    std::span<const Vec3> leds_in_head,
                                    const AcquisitionOptions& options) {
   Contest contest(cameras, views, leds_in_head, options);
-  for (const auto& [a, b] : pairs_of(cameras, views))
+  for (const auto& [a, b] : pairs_of(cameras, views)) {
     for (const Rigid3& pose : candidates_from_pair(cameras, views[a], views[b], leds_in_head,
                                                    /*least_leds=*/1, options.candidates_kept))
       contest.enter(pose);
+    if (contest.settled()) break;
+  }
   if (const auto found = contest.winner()) return found;
   for (const CameraView& view : views)
     if (view.dots_px.size() >= 3)

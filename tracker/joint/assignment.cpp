@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace vindu {
 namespace {
@@ -95,9 +96,23 @@ class Augmenter {
   std::vector<double> row_price_, column_price_;
 };
 
+/// Each row's cheapest column; empty where two rows want the same one.
+std::optional<std::vector<int>> undisputed(const CostMatrix& costs, double none) {
+  std::vector<int> columns(static_cast<std::size_t>(costs.rows()), -1);
+  for (Eigen::Index row = 0; row < costs.rows(); ++row) {
+    Eigen::Index column = 0;
+    if (costs.cols() == 0 || !(costs.row(row).minCoeff(&column) < none)) continue;
+    if (std::ranges::find(columns, static_cast<int>(column)) != columns.end()) return std::nullopt;
+    columns[static_cast<std::size_t>(row)] = static_cast<int>(column);
+  }
+  return columns;
+}
+
 }  // namespace
 
+// Nothing is cheaper than each row's least cost, and mostly no two rows want the same column.
 std::vector<int> assign(const CostMatrix& costs, double none) {
+  if (auto columns = undisputed(costs, none)) return *std::move(columns);
   Augmenter augmenter(costs, none);
   for (int row = 0; row < costs.rows(); ++row) augmenter.add_row(row);
   return augmenter.columns();

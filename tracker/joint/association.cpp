@@ -41,10 +41,10 @@ void move_on(HeadTrack& head, Time to, const AssociationOptions& options) {
   MotionNoise noise = options.fixed_noise.value_or(noise_of_motion(*head.state));
   if (!seen_by_two(head, to, options))
     noise.move_m2_s5 = std::max(noise.move_m2_s5, options.least_alone_m2_s5);
-  if (const double beyond = head.surprise - options.usual_surprise;
+  if (const double beyond = std::min(head.surprise, options.most_surprise) - options.usual_surprise;
       beyond > 0 && !options.fixed_noise && well_seen(head, to, options)) {
-    noise.move_m2_s5 += beyond * options.by_surprise.move_m2_s5;
-    noise.turn_rad2_s5 += beyond * options.by_surprise.turn_rad2_s5;
+    noise.move_m2_s5 += beyond * beyond * options.by_surprise.move_m2_s5;
+    noise.turn_rad2_s5 += beyond * beyond * options.by_surprise.turn_rad2_s5;
   }
   if (!options.turns) noise.turn_rad2_s5 = 0;
   const auto lately = [&](Time seen) { return to - seen < options.coasts_after; };
@@ -119,6 +119,18 @@ void note(HeadTrack& head, const TimedDots& seen, int led) {
     *time = std::max(*time, seen.captured);
 }
 
+/// Dots that lie too far off to correct by count as well: they say most of a head that sets off.
+void be_surprised(const CostMatrix& costs, const std::vector<Column>& columns,
+                  std::span<HeadTrack> heads, const AssociationOptions& options) {
+  constexpr double kShare = 0.12;  // of one dot in the running mean
+  for (const auto& [i, c] : pairs_of(costs, 2 * options.gate)) {
+    HeadTrack& head = heads[static_cast<std::size_t>(columns[c].head)];
+    const double square =
+        std::min(costs(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)), options.gate);
+    head.surprise += kShare * (square - 2 - head.surprise);
+  }
+}
+
 /// Each correction sharpens what is expected of the next dot, which must still fit.
 std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& camera,
                                     std::span<const std::vector<Vec3>> leds_of_heads,
@@ -128,9 +140,10 @@ std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& ca
     if (residual_px.norm() > options.farthest_px) return kFar;
     return distance2(column.expected.covariance_px2 + noise_of(seen, column.expected), residual_px);
   };
-  constexpr double kShare = 0.2;  // of one dot in the running mean
+  const CostMatrix costs = costs_of(seen, columns, in_sigmas);
+  be_surprised(costs, columns, heads, options);
   std::vector<AcceptedDot> accepted;
-  for (const auto& [i, c] : pairs_of(costs_of(seen, columns, in_sigmas), options.gate)) {
+  for (const auto& [i, c] : pairs_of(costs, options.gate)) {
     const auto& [at_head, led, before] = columns[c];
     HeadTrack& head = heads[static_cast<std::size_t>(at_head)];
     const auto expected =
@@ -145,7 +158,6 @@ std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& ca
     correct(*head.state, *expected, position(seen.dots[i]),
             noise_of(seen, *expected, factor * seen.distrust));
     note(head, seen, led);
-    head.surprise += kShare * (0.5 * square - head.surprise);
     accepted.push_back({i, at_head, led, residual, expected->raw_px_s, square});
   }
   return accepted;

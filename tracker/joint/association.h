@@ -33,7 +33,7 @@ struct HeadTrack {
   Time seen{};  ///< when the last dot of it was captured
   std::array<Time, kMaxCameras> seen_by{};
   std::array<Time, kMaxLeds> led_seen{};
-  double surprise = 1;  ///< running mean of its dots' squared residuals in sigmas, a coordinate
+  double surprise = 0;  ///< running mean of its dots' squared residuals in sigmas, less 2: as usual
 };
 
 struct AssociationOptions {
@@ -52,9 +52,10 @@ struct AssociationOptions {
   /// A head may walk along the ray of the only camera that sees it.
   double least_alone_m2_s5 = 3;
   /// A head that surprises though it is well seen is accelerating: what noise is added for each
-  /// unit of surprise beyond the usual.
-  double usual_surprise = 2;
-  MotionNoise by_surprise = {10, 40};
+  /// unit of surprise beyond the usual, squared.
+  double usual_surprise = 1;
+  double most_surprise = 3.5;
+  MotionNoise by_surprise = {20, 80};
   double lost_at_rad = radians(100);
   std::optional<MotionNoise> fixed_noise = {};  ///< in place of that which goes with the motion
   bool turns = true;                            ///< false: the rotation is given, not estimated

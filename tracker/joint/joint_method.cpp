@@ -222,7 +222,7 @@ AcquisitionOptions JointMethod::acquisition_options() const {
 
 /// Whether some camera's newest report has dots that nobody explains, or the head surprises.
 bool JointMethod::doubtful(std::size_t head) const {
-  constexpr double kSurprising = 3;
+  constexpr double kSurprising = 4;
   if (newest_heads()[head].surprise > kSurprising) return true;
   std::vector<bool> done(cameras_.size(), false);
   for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {

@@ -86,7 +86,6 @@ std::optional<DotOfLed> dot_of_led(const CameraModel& camera, const Rigid3& room
 std::optional<PoseFit> fit_pose(std::span<const CameraModel> cameras,
                                 std::span<const LedSighting> sightings, const Rigid3& start,
                                 const PosePrior& prior, const PoseFitOptions& options) {
-  constexpr double kConverged = 1e-7;  // metres and radians
   Rigid3 pose = start;
   auto normal = normal_at(pose, cameras, sightings, prior, options.huber_sigmas);
   if (!normal || !finite(*normal)) return std::nullopt;
@@ -107,7 +106,7 @@ std::optional<PoseFit> fit_pose(std::span<const CameraModel> cameras,
     pose = next;
     normal = there;
     damping = std::max(damping / 8, 1e-9);
-    if (step.norm() < kConverged) break;
+    if (step.norm() < options.converged) break;
   }
   const double count = std::max<double>(1, static_cast<double>(sightings.size()));
   return PoseFit{pose, normal->dots, normal->all, normal->cost,

@@ -39,6 +39,7 @@ struct PosePrior {
 struct PoseFitOptions {
   double huber_sigmas = 2;  ///< residuals beyond count linearly (Huber 1964)
   int max_iterations = 20;
+  double converged = 1e-7;  ///< a step, in metres and radians, that ends them
 };
 
 struct PoseFit {
