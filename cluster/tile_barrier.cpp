@@ -1,0 +1,84 @@
+#include "cluster/tile_barrier.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace vindu {
+namespace {
+
+/// A master that is not heard for so long is gone, and an older one may come back.
+constexpr Duration kMasterGone = std::chrono::seconds(2);
+
+}  // namespace
+
+void OneWayOffset::add(Time sent_by_master, Time received) {
+  differences_.push_back(received - sent_by_master);
+  if (differences_.size() > kKept) differences_.pop_front();
+}
+
+std::optional<Time> OneWayOffset::here(Time at_master) const {
+  if (differences_.empty()) return std::nullopt;
+  return at_master + *std::ranges::min_element(differences_);
+}
+
+TileBarrier::TileBarrier(std::string tile, std::uint64_t incarnation)
+    : tile_(std::move(tile)), incarnation_(incarnation) {
+  assert(incarnation != 0);
+  heard_.newest.number = 0;
+}
+
+bool TileBarrier::follows(const FrameMessage& message, Time now) const {
+  return message.epoch >= heard_.epoch || silence(now) > kMasterGone;
+}
+
+void TileBarrier::hear(const FrameMessage& message, Time now) {
+  if (!follows(message, now)) return;
+  if (message.epoch != heard_.epoch) {
+    heard_ = {.epoch = message.epoch, .newest = {.number = 0}};
+    offset_ = {};
+    drawn_ = presented_ = 0;
+  }
+  sent_ = message.sent_time;
+  received_ = now;
+  offset_.add(message.sent_time, now);
+  const bool overtaken =
+      message.newest.number < heard_.newest.number || message.released < heard_.released;
+  if (!overtaken) heard_ = message;
+}
+
+const FrameMessage* TileBarrier::to_draw() const {
+  return heard_.newest.number > drawn_ ? &heard_ : nullptr;
+}
+
+void TileBarrier::drew(std::uint64_t number, Time started, Time now) {
+  if (drawn_ != 0) missed_ += number - drawn_ - 1;
+  drawn_ = number;
+  draw_time_ = now - started;
+}
+
+std::optional<Time> TileBarrier::show_time(Time now) const {
+  if (drawn_ <= presented_ || drawn_ > heard_.released) return std::nullopt;
+  if (!heard_.present_time || drawn_ < heard_.released) return now;
+  return offset_.here(*heard_.present_time);
+}
+
+void TileBarrier::showed(Time now) {
+  presented_ = drawn_;
+  presented_time_ = now;
+}
+
+ReadyMessage TileBarrier::ready(Time now) const {
+  return {.tile = tile_,
+          .incarnation = incarnation_,
+          .epoch = heard_.epoch,
+          .number = drawn_,
+          .presented = presented_,
+          .presented_time = presented_time_,
+          .draw_time = draw_time_,
+          .frame_sent_time = sent_,
+          .frame_received_time = received_,
+          .sent_time = now};
+}
+
+}  // namespace vindu

@@ -1,0 +1,74 @@
+// A tile's side of the frame lock: which frame to draw, whether it may be shown, and what to tell
+// the master. A tile follows whoever is master now; one that was evicted does nothing else than
+// others, and is taken in again when it keeps up. No clock, no network: who calls says what was
+// heard and when.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cluster/messages.h"
+
+namespace vindu {
+
+/// How far the master's clock is behind this machine's, from when messages were sent and received:
+/// the least difference of the last ones. It is too large by what the fastest of them took, some
+/// 0.1 ms in a wall's network, and alike on all tiles.
+class OneWayOffset {
+ public:
+  void add(Time sent_by_master, Time received);
+  /// On this machine's clock. Empty before the first message.
+  std::optional<Time> here(Time at_master) const;
+
+ private:
+  static constexpr std::size_t kKept = 240;  // some seconds
+  std::deque<Duration> differences_;
+};
+
+class TileBarrier {
+ public:
+  /// `incarnation`: of this process, not 0.
+  TileBarrier(std::string tile, std::uint64_t incarnation);
+
+  /// Messages that come late, twice or from a master that was replaced change nothing.
+  void hear(const FrameMessage& message, Time now);
+
+  /// The newest frame and its scene, until it was drawn.
+  const FrameMessage* to_draw() const;
+  void drew(std::uint64_t number, Time started, Time now);
+
+  /// When the drawn frame is to be shown; empty while it is not released, or was shown already.
+  std::optional<Time> show_time(Time now) const;
+  void showed(Time now);
+
+  /// What the master has to know. To be repeated while a drawn frame is not released: either
+  /// message may be lost.
+  ReadyMessage ready(Time now) const;
+  bool waits() const { return drawn_ > presented_ && drawn_ > heard_.released; }
+
+  /// Frames that were never drawn here, since the last call.
+  std::uint64_t take_missed() { return std::exchange(missed_, 0); }
+
+  /// 0 before the first message.
+  std::uint64_t epoch() const { return heard_.epoch; }
+  std::uint64_t presented() const { return presented_; }
+  /// How long nothing was heard of the master.
+  Duration silence(Time now) const { return now - received_; }
+
+ private:
+  bool follows(const FrameMessage& message, Time now) const;
+
+  std::string tile_;
+  std::uint64_t incarnation_;
+  FrameMessage heard_;        // the newest
+  Time sent_{}, received_{};  // of the last message, by the master's clock and by ours
+  OneWayOffset offset_;
+  std::uint64_t drawn_ = 0, presented_ = 0, missed_ = 0;
+  Time presented_time_{};
+  Duration draw_time_{};
+};
+
+}  // namespace vindu

@@ -1,0 +1,126 @@
+#include "cluster/wall_master.h"
+
+#include <algorithm>
+
+#include "core/log.h"
+
+namespace vindu {
+namespace {
+
+/// A frame message that is not heard costs a tile this long.
+constexpr Duration kRepeat = std::chrono::milliseconds(4);
+
+}  // namespace
+
+WallMaster::WallMaster(Bus& bus, Options options)
+    : bus_(bus),
+      options_(std::move(options)),
+      barrier_(options_.epoch, options_.tiles, options_.barrier),
+      asked_scene_(options_.epoch),
+      shown_scene_(options_.epoch) {
+  for (const std::string& tile : options_.tiles) tiles_[tile];
+}
+
+void WallMaster::poll(Time now) {
+  for (const Presence& presence : bus_.take<Presence>()) hear(presence);
+  for (const StatusMessage& status : bus_.take<StatusMessage>()) hear(status);
+  for (const ReadyMessage& ready : bus_.take<ReadyMessage>()) hear(ready, now);
+  if (barrier_.settle(now) || (!barrier_.open() && now - published_ >= kRepeat)) publish(now);
+  for (auto& [tile, report] : tiles_) report.locked = barrier_.takes_part(tile);
+  change_scene();
+}
+
+Time WallMaster::wake_time() const {
+  return barrier_.open() ? Time::max() : std::min(barrier_.deadline(), published_ + kRepeat);
+}
+
+void WallMaster::begin(const FrameState& state, Time now) {
+  barrier_.begin(state, shown_scene_, now);
+  ++newest_;
+  barrier_.settle(now);  // with nobody to wait for
+  publish(now);
+}
+
+void WallMaster::publish(Time now) {
+  bus_.publish(barrier_.message(now));
+  published_ = now;
+}
+
+void WallMaster::hear(const ReadyMessage& ready, Time now) {
+  const auto found = tiles_.find(ready.tile);
+  if (found == tiles_.end() || ready.epoch != options_.epoch) return;
+  TileReport& report = found->second;
+  report.draw_time = ready.draw_time;
+  if (report.status && report.status->host == options_.host) {
+    report.clock = OffsetEstimate{};
+  } else {
+    ClockOffset& clock = clocks_[ready.tile];
+    clock.add({.sent_here = ready.frame_sent_time,
+               .received_there = ready.frame_received_time,
+               .sent_there = ready.sent_time,
+               .received_here = now});
+    report.clock = clock.at(now);
+  }
+  note_swap(ready, report);
+  if (barrier_.hear(ready, now)) publish(now);
+}
+
+void WallMaster::note_swap(const ReadyMessage& ready, TileReport& report) {
+  std::uint64_t& shown = shown_[ready.tile];
+  if (ready.presented == shown || ready.presented == 0 || ready.presented > newest_) return;
+  shown = ready.presented;
+  if (!report.clock || !report.locked) return;
+  const Time time = ready.presented_time - report.clock->offset;
+  Swaps& swaps = swaps_[ready.presented];
+  swaps.first = swaps.tiles == 0 ? time : std::min(swaps.first, time);
+  swaps.last = swaps.tiles == 0 ? time : std::max(swaps.last, time);
+  swaps.uncertainty = std::max(swaps.uncertainty, report.clock->uncertainty);
+  ++swaps.tiles;
+}
+
+std::vector<FrameSkew> WallMaster::take_skews() {
+  constexpr std::uint64_t kLate = 8;  // frames later nobody reports any more
+  std::vector<FrameSkew> skews;
+  while (!swaps_.empty() && (swaps_.begin()->first + kLate < newest_ ||
+                             swaps_.begin()->second.tiles >= barrier_.active())) {
+    const auto& [number, swaps] = *swaps_.begin();
+    skews.push_back({number, swaps.tiles, swaps.last - swaps.first, swaps.last, swaps.uncertainty});
+    swaps_.erase(swaps_.begin());
+  }
+  return skews;
+}
+
+void WallMaster::hear(const StatusMessage& status) {
+  const auto found = tiles_.find(status.tile);
+  if (found == tiles_.end()) return log_warning(status.tile, "is no tile of this wall: left out");
+  found->second.status = status;
+}
+
+void WallMaster::hear(const Presence& presence) {
+  const auto found = tiles_.find(presence.who.name);
+  if (presence.who.role != Role::tile || found == tiles_.end()) return;
+  const bool gone =
+      presence.change == PresenceChange::silent || presence.change == PresenceChange::left;
+  found->second.present = !gone && presence.change != PresenceChange::other_version;
+  if (gone) barrier_.leave(presence.who.name);
+}
+
+void WallMaster::show(const std::string& path, const std::string& sha256, Placement placement) {
+  bus_.publish(SceneMessage{++asked_scene_, path, sha256, placement});
+}
+
+// A tile that cannot load it says so, reports the revision as its own, and shows why.
+std::vector<std::string> WallMaster::loading() const {
+  std::vector<std::string> loading;
+  if (asked_scene_ == shown_scene_) return loading;
+  for (const auto& [tile, report] : tiles_)
+    if (report.present && (!report.status || report.status->scene_revision < asked_scene_))
+      loading.push_back(tile);
+  return loading;
+}
+
+void WallMaster::change_scene() {
+  if (loading().empty()) shown_scene_ = asked_scene_;
+}
+
+}  // namespace vindu

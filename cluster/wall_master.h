@@ -1,0 +1,101 @@
+// The master on the bus: frames out, what tiles say in, the frame lock between them, and scenes
+// that all tiles change to in one frame. It never waits: who calls asks when to come back.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cluster/barrier.h"
+#include "cluster/bus.h"
+#include "cluster/clock_offset.h"
+
+namespace vindu {
+
+/// What the master knows of a tile.
+struct TileReport {
+  std::optional<StatusMessage> status{};  ///< empty: never heard of
+  bool present = false;
+  bool locked = false;  ///< the others wait for it
+  std::uint32_t evictions = 0;
+  std::uint32_t restarts = 0;
+  Duration draw_time{};
+  std::optional<OffsetEstimate> clock{};  ///< the tile's, against the master's
+};
+
+/// The swaps of one frame, over tiles.
+struct FrameSkew {
+  std::uint64_t number = 0;
+  std::size_t tiles = 0;
+  Duration skew{};         ///< between the first and the last, on the master's clock
+  Time last_shown{};       ///< on the master's clock
+  Duration uncertainty{};  ///< of the clocks; 0 where all tiles are on the master's host
+};
+
+class WallMaster {
+ public:
+  static Topics publishes() { return {Topic::frame, Topic::scene}; }
+  static Topics hears() { return {Topic::ready, Topic::tile_status, Topic::presence}; }
+
+  struct Options {
+    std::uint64_t epoch = 0;  ///< not 0, and larger than that of the master before
+    std::string host{};       ///< tiles on it share the master's clock
+    std::vector<std::string> tiles{};
+    BarrierOptions barrier{};
+  };
+
+  /// The bus, joined with these topics at least, must outlive it.
+  WallMaster(Bus& bus, Options options);
+
+  /// Takes in what was heard; releases, evicts, and says again what a tile seems to have missed.
+  void poll(Time now);
+
+  /// When poll() has something to do though nothing is heard.
+  Time wake_time() const;
+
+  /// Whether the next frame may begin.
+  bool open() const { return barrier_.open(); }
+  void begin(const FrameState& state, Time now);
+
+  /// Tiles load it, and change to it in one frame when none is left that still loads. A scene that
+  /// was asked for before and not shown yet is given up.
+  void show(const std::string& path, const std::string& sha256, Placement placement);
+  /// Tiles that the change waits for.
+  std::vector<std::string> loading() const;
+  std::uint64_t shown_scene() const { return shown_scene_; }
+
+  const std::map<std::string, TileReport>& tiles() const { return tiles_; }
+  std::vector<MemberEvent> take_events() { return barrier_.take_events(); }
+  /// Of frames whose tiles have all reported, or that are too old to wait for more.
+  std::vector<FrameSkew> take_skews();
+  std::size_t active() const { return barrier_.active(); }
+
+ private:
+  struct Swaps {
+    Time first{}, last{};  // on the master's clock
+    std::size_t tiles = 0;
+    Duration uncertainty{};
+  };
+
+  void hear(const ReadyMessage& ready, Time now);
+  void hear(const StatusMessage& status);
+  void hear(const Presence& presence);
+  void note_swap(const ReadyMessage& ready, TileReport& report);
+  void change_scene();
+  void publish(Time now);
+
+  Bus& bus_;
+  Options options_;
+  Barrier barrier_;
+  std::map<std::string, TileReport> tiles_;
+  std::map<std::string, ClockOffset> clocks_;
+  std::map<std::string, std::uint64_t>
+      shown_;                                // newest frame that each tile has said to have shown
+  std::map<std::uint64_t, Swaps> swaps_;     // by frame
+  std::uint64_t asked_scene_, shown_scene_;  // from the epoch on: no two masters' are alike
+  std::uint64_t newest_ = 0;
+  Time published_{};
+};
+
+}  // namespace vindu

@@ -1,0 +1,56 @@
+// A tile on the bus: what to draw and when to show it, which scene to load, and the tile's own
+// state told to everybody. It never waits: who calls asks when to come back.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cluster/bus.h"
+#include "cluster/tile_barrier.h"
+
+namespace vindu {
+
+class WallTile {
+ public:
+  static Topics publishes() { return {Topic::ready, Topic::tile_status}; }
+  static Topics hears() { return {Topic::frame, Topic::scene}; }
+
+  /// `self`: tile, host, incarnation, renderer, version; the rest of the status is kept here. The
+  /// bus, joined with these topics at least, must outlive it.
+  WallTile(Bus& bus, StatusMessage self);
+
+  void poll(Time now);
+  /// When poll() has something to do though nothing is heard.
+  Time wake_time(Time now) const;
+
+  /// What to do now. A frame that waits for its display's refresh (`surface_free` false) gives way
+  /// to the next one: it must not hold up the wall.
+  enum class Next { show, draw, wait };
+  Next next(Time now, bool surface_free) const;
+
+  const FrameMessage* to_draw() const { return barrier_.to_draw(); }
+  void drew(std::uint64_t number, Time started, Time now);
+  void showed(Time now);
+
+  /// The newest scene that the master asks for, once.
+  std::optional<SceneMessage> take_scene() { return std::exchange(scene_, std::nullopt); }
+  void loaded(std::uint64_t revision);
+  /// It is shown as an error from the frame on in which the others change to it.
+  void could_not_load(std::uint64_t revision, const std::string& why);
+
+  /// Whether no master was heard of for so long that people should be told.
+  bool alone(Time now) const { return barrier_.silence(now) > std::chrono::seconds(2); }
+  const StatusMessage& status() const { return status_; }
+
+ private:
+  void report(Time now);
+
+  Bus& bus_;
+  TileBarrier barrier_;
+  StatusMessage status_;
+  std::optional<SceneMessage> scene_;
+  Time reported_{}, said_ready_{}, counted_{};
+  std::uint64_t frames_ = 0;  // since counted_
+};
+
+}  // namespace vindu
