@@ -10,6 +10,8 @@ namespace vindu::app {
 /// Runs after the command line was read; returns the exit code. Errors are thrown.
 using Action = std::function<int()>;
 
+void add_master(CLI::App& parent, Action& chosen);
+void add_tile(CLI::App& parent, Action& chosen);
 void add_view(CLI::App& parent, Action& chosen);
 void add_render(CLI::App& parent, Action& chosen);
 void add_simulate(CLI::App& parent, Action& chosen);

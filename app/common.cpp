@@ -1,6 +1,7 @@
 #include "app/common.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -93,6 +94,12 @@ Site load_uncalibrated_site(const std::string& wall_file) {
   return parse_site({std::istreambuf_iterator<char>(stream), {}}, file);
 }
 
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
 std::string json_text(const std::string& text) {
   std::string quoted = "\"";
   for (const char letter : text) {
@@ -119,19 +126,24 @@ TileCorners content_corners(const Tile& tile, const Window& window) {
   return part_of_tile(tile, window.content_on_screen_px(), window.size());
 }
 
+Scene read_model(const std::string& file) {
+  ImportResult imported = import_scene(file);
+  for (const std::string& warning : imported.warnings) log_warning(imported.scene.name, warning);
+  log_debug(imported.scene.name, std::to_string(imported.scene.triangle_count()) + " triangles");
+  cut_into_chunks(imported.scene);
+  return std::move(imported.scene);
+}
+
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
                        const Site& site) {
   const bool show = model.empty() && site.scene.model.empty();
   const std::string file = show            ? find_asset("show/show.glb")
                            : model.empty() ? site.scene.model
                                            : model;
-  ImportResult imported = import_scene(file);
-  for (const std::string& warning : imported.warnings) log_warning(imported.scene.name, warning);
-  log_debug(imported.scene.name, std::to_string(imported.scene.triangle_count()) + " triangles");
-  cut_into_chunks(imported.scene);
-  if (show && !placement) return {std::move(imported.scene), place_show(site.wall)};
+  Scene scene = read_model(file);
+  if (show && !placement) return {std::move(scene), place_show(site.wall)};
   const Placement wanted = model.empty() ? site.scene.place : Placement::fit;
-  return place(std::move(imported.scene), placement.value_or(wanted), site.wall);
+  return place(std::move(scene), placement.value_or(wanted), site.wall);
 }
 
 }  // namespace vindu::app

@@ -32,6 +32,9 @@ Site load_site(const std::string& wall_file);
 /// The same without its calibration.
 Site load_uncalibrated_site(const std::string& wall_file);
 
+/// Of this machine, as it calls itself.
+std::string host_name();
+
 /// As a JSON string, quotes included.
 std::string json_text(const std::string& text);
 
@@ -51,7 +54,10 @@ struct LoadedScene {
   Navigation navigation;
 };
 
-/// Imports a model and places it before the wall; warnings and the placement are logged. An empty
+/// Imports a model, cut so that what no tile sees costs nothing; warnings are logged.
+Scene read_model(const std::string& file);
+
+/// Reads a model and places it before the wall; warnings and the placement are logged. An empty
 /// name is the wall file's scene or, where it names none, the show.
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
                        const Site& site);

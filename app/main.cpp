@@ -42,6 +42,8 @@ int run(int argc, char** argv) {
   app.fallthrough();
   vindu::app::Action chosen;
   vindu::app::add_simulate(app, chosen);
+  vindu::app::add_master(app, chosen);
+  vindu::app::add_tile(app, chosen);
   vindu::app::add_view(app, chosen);
   vindu::app::add_render(app, chosen);
   vindu::app::add_check(app, chosen);

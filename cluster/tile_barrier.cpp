@@ -22,8 +22,7 @@ std::optional<Time> OneWayOffset::here(Time at_master) const {
   return at_master + *std::ranges::min_element(differences_);
 }
 
-TileBarrier::TileBarrier(std::string tile, std::uint64_t incarnation)
-    : tile_(std::move(tile)), incarnation_(incarnation) {
+TileBarrier::TileBarrier(std::uint64_t incarnation) : incarnation_(incarnation) {
   assert(incarnation != 0);
   heard_.newest.number = 0;
 }
@@ -69,8 +68,7 @@ void TileBarrier::showed(Time now) {
 }
 
 ReadyMessage TileBarrier::ready(Time now) const {
-  return {.tile = tile_,
-          .incarnation = incarnation_,
+  return {.incarnation = incarnation_,
           .epoch = heard_.epoch,
           .number = drawn_,
           .presented = presented_,

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "cluster/messages.h"
@@ -31,7 +30,7 @@ class OneWayOffset {
 class TileBarrier {
  public:
   /// `incarnation`: of this process, not 0.
-  TileBarrier(std::string tile, std::uint64_t incarnation);
+  explicit TileBarrier(std::uint64_t incarnation);
 
   /// Messages that come late, twice or from a master that was replaced change nothing.
   void hear(const FrameMessage& message, Time now);
@@ -44,8 +43,8 @@ class TileBarrier {
   std::optional<Time> show_time(Time now) const;
   void showed(Time now);
 
-  /// What the master has to know. To be repeated while a drawn frame is not released: either
-  /// message may be lost.
+  /// What the master has to know, but for the tile's name. To be repeated while a drawn frame is
+  /// not released: either message may be lost.
   ReadyMessage ready(Time now) const;
   bool waits() const { return drawn_ > presented_ && drawn_ > heard_.released; }
 
@@ -61,7 +60,6 @@ class TileBarrier {
  private:
   bool follows(const FrameMessage& message, Time now) const;
 
-  std::string tile_;
   std::uint64_t incarnation_;
   FrameMessage heard_;        // the newest
   Time sent_{}, received_{};  // of the last message, by the master's clock and by ours

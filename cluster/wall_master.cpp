@@ -105,8 +105,10 @@ void WallMaster::hear(const Presence& presence) {
   if (gone) barrier_.leave(presence.who.name);
 }
 
-void WallMaster::show(const std::string& path, const std::string& sha256, Placement placement) {
+std::uint64_t WallMaster::show(const std::string& path, const std::string& sha256,
+                               Placement placement) {
   bus_.publish(SceneMessage{++asked_scene_, path, sha256, placement});
+  return asked_scene_;
 }
 
 // A tile that cannot load it says so, reports the revision as its own, and shows why.

@@ -60,7 +60,8 @@ class WallMaster {
 
   /// Tiles load it, and change to it in one frame when none is left that still loads. A scene that
   /// was asked for before and not shown yet is given up.
-  void show(const std::string& path, const std::string& sha256, Placement placement);
+  /// Returns its revision.
+  std::uint64_t show(const std::string& path, const std::string& sha256, Placement placement);
   /// Tiles that the change waits for.
   std::vector<std::string> loading() const;
   std::uint64_t shown_scene() const { return shown_scene_; }

@@ -11,18 +11,15 @@ constexpr Duration kCount = std::chrono::seconds(1);
 
 }  // namespace
 
-WallTile::WallTile(Bus& bus, StatusMessage self)
-    : bus_(bus), barrier_(self.tile, self.incarnation), status_(std::move(self)) {}
+WallTile::WallTile(Bus& bus, StatusMessage self, std::vector<std::string> tiles)
+    : bus_(bus), tiles_(std::move(tiles)), barrier_(self.incarnation), status_(std::move(self)) {}
 
 void WallTile::poll(Time now) {
   for (const FrameMessage& message : bus_.take<FrameMessage>()) barrier_.hear(message, now);
   for (SceneMessage& scene : bus_.take<SceneMessage>()) {
     scene_ = std::move(scene);
   }
-  if (barrier_.waits() && now - said_ready_ >= kRepeatReady) {
-    bus_.publish(barrier_.ready(now));
-    said_ready_ = now;
-  }
+  if (barrier_.waits() && now - said_ready_ >= kRepeatReady) say_ready(now);
   if (now - reported_ >= kReport) report(now);
 }
 
@@ -43,7 +40,15 @@ WallTile::Next WallTile::next(Time now, bool surface_free) const {
 void WallTile::drew(std::uint64_t number, Time started, Time now) {
   barrier_.drew(number, started, now);
   status_.late_frames += barrier_.take_missed();
-  bus_.publish(barrier_.ready(now));
+  say_ready(now);
+}
+
+void WallTile::say_ready(Time now) {
+  ReadyMessage ready = barrier_.ready(now);
+  for (const std::string& tile : tiles_) {
+    ready.tile = tile;
+    bus_.publish(ready);
+  }
   said_ready_ = now;
 }
 
@@ -51,19 +56,23 @@ void WallTile::drew(std::uint64_t number, Time started, Time now) {
 // which a tile that stops would never say.
 void WallTile::showed(Time now) {
   barrier_.showed(now);
-  bus_.publish(barrier_.ready(now));
+  say_ready(now);
   ++frames_;
 }
 
 void WallTile::report(Time now) {
   if (now - counted_ >= kCount) {
-    if (counted_ != Time{}) status_.frames_per_s = static_cast<double>(frames_) / seconds(now - counted_);
+    if (counted_ != Time{})
+      status_.frames_per_s = static_cast<double>(frames_) / seconds(now - counted_);
     frames_ = 0;
     counted_ = now;
   }
   status_.epoch = barrier_.epoch();
   status_.presented = barrier_.presented();
-  bus_.publish(status_);
+  for (const std::string& tile : tiles_) {
+    status_.tile = tile;
+    bus_.publish(status_);
+  }
   reported_ = now;
 }
 

@@ -1,9 +1,11 @@
-// A tile on the bus: what to draw and when to show it, which scene to load, and the tile's own
-// state told to everybody. It never waits: who calls asks when to come back.
+// A process with one tile or several on the bus: what to draw and when to show it, which scene to
+// load, and the tiles' state told to everybody. It never waits: who calls asks when to come back.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cluster/bus.h"
 #include "cluster/tile_barrier.h"
@@ -15,9 +17,11 @@ class WallTile {
   static Topics publishes() { return {Topic::ready, Topic::tile_status}; }
   static Topics hears() { return {Topic::frame, Topic::scene}; }
 
-  /// `self`: tile, host, incarnation, renderer, version; the rest of the status is kept here. The
-  /// bus, joined with these topics at least, must outlive it.
-  WallTile(Bus& bus, StatusMessage self);
+  /// `self`: host, incarnation and version; the rest of the status is kept here. The tiles are
+  /// drawn and shown together. The bus, joined with these topics at least, must outlive it.
+  WallTile(Bus& bus, StatusMessage self, std::vector<std::string> tiles);
+
+  void renders_with(const std::string& renderer) { status_.renderer = renderer; }
 
   void poll(Time now);
   /// When poll() has something to do though nothing is heard.
@@ -44,8 +48,10 @@ class WallTile {
 
  private:
   void report(Time now);
+  void say_ready(Time now);
 
   Bus& bus_;
+  std::vector<std::string> tiles_;
   TileBarrier barrier_;
   StatusMessage status_;
   std::optional<SceneMessage> scene_;

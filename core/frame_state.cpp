@@ -35,6 +35,7 @@ std::uint64_t hash_of(const FrameState& state) {
   hash.add(state.navigation.scale);
   hash.add(state.animation_time_s);
   hash.add(static_cast<std::uint64_t>(state.mode));
+  hash.add(std::uint64_t{state.overlays});
   return hash.value();
 }
 

@@ -23,6 +23,12 @@ struct Navigation {
   double scale = 1;
 };
 
+/// What is drawn over the scene, as bits.
+enum Overlay : std::uint32_t {
+  kFrameCounter = 1,  ///< the frame's number, large enough to be read from the pixels again
+};
+constexpr std::uint32_t kAllOverlays = kFrameCounter;
+
 struct FrameState {
   std::uint64_t number = 0;
   Time photon_time{};  ///< when its light is expected to leave the wall; the master's clock
@@ -30,6 +36,7 @@ struct FrameState {
   Navigation navigation{};
   double animation_time_s = 0;
   Mode mode = Mode::track;
+  std::uint32_t overlays = 0;
 };
 
 /// 64-bit FNV-1a over every field's bytes, little endian: two tiles with one hash draw the same

@@ -58,13 +58,14 @@ Image Picture::read(const RectPx& part) const {
   return image;
 }
 
-void Picture::write(const Image& image) {
-  assert(image.width_px == size_.width && image.height_px == size_.height);
+void Picture::write(const Image& image, int x, int y) {
+  assert(x >= 0 && y >= 0 && x + image.width_px <= size_.width &&
+         y + image.height_px <= size_.height);
   Image flipped = image;
-  for (int row = 0; row < size_.height; ++row)
-    std::copy_n(&image.at(0, row), size_.width, &flipped.at(0, size_.height - 1 - row));
+  for (int row = 0; row < image.height_px; ++row)
+    std::copy_n(&image.at(0, row), image.width_px, &flipped.at(0, image.height_px - 1 - row));
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage2D(texture_.name(), 0, 0, 0, size_.width, size_.height, GL_RGBA,
+  glTextureSubImage2D(texture_.name(), 0, x, y, image.width_px, image.height_px, GL_RGBA,
                       GL_UNSIGNED_BYTE, flipped.pixels.data());
 }
 

@@ -39,7 +39,9 @@ class Picture {
   Image read() const;
   Image read(const RectPx& part) const;
   /// `image` must have this picture's size.
-  void write(const Image& image);
+  void write(const Image& image) { write(image, 0, 0); }
+  /// Into a part, the image's lower left at (x, y); it must lie within the picture.
+  void write(const Image& image, int x, int y);
 
  private:
   SizePx size_;

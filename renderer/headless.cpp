@@ -4,7 +4,9 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <cmath>
 #include <sstream>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -48,7 +50,8 @@ EGLDisplay choose_display(const HeadlessOptions& options) {
 
 class HeadlessSurface final : public Surface {
  public:
-  explicit HeadlessSurface(const HeadlessOptions& options) : display_(choose_display(options)) {
+  explicit HeadlessSurface(const HeadlessOptions& options)
+      : refresh_(options.refresh), display_(choose_display(options)) {
     if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
       fail("eglInitialize");
     if (!eglBindAPI(EGL_OPENGL_API)) fail("eglBindAPI");
@@ -72,15 +75,28 @@ class HeadlessSurface final : public Surface {
   }
 
   SizePx size() const override { return {}; }
-  void present() override { glFinish(); }
+  // The picture is on its way until the next refresh.
+  void present() override {
+    glFinish();
+    std::this_thread::sleep_until(shown_);
+    if (refresh_) shown_ = next_refresh(*refresh_, std::chrono::steady_clock::now());
+  }
   bool close_wanted() const override { return false; }
+  bool free() const override { return std::chrono::steady_clock::now() >= shown_; }
 
  private:
+  std::optional<VirtualRefresh> refresh_;
+  Time shown_{};  // when what was presented last is seen
   EGLDisplay display_;
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
 }  // namespace
+
+Time next_refresh(const VirtualRefresh& refresh, Time now) {
+  const double refreshes = seconds(now.time_since_epoch()) * refresh.rate_hz - refresh.phase;
+  return Time(from_seconds((std::floor(refreshes) + 1 + refresh.phase) / refresh.rate_hz));
+}
 
 std::unique_ptr<Surface> make_headless_surface(const HeadlessOptions& options) {
   return std::make_unique<HeadlessSurface>(options);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/clock.h"
 #include "core/rigid3.h"
 #include "renderer/canvas.h"
 
@@ -21,12 +22,24 @@ class Surface {
   /// Shows what was drawn into framebuffer 0 and handles the window's events.
   virtual void present() = 0;
   virtual bool close_wanted() const = 0;
+  /// Whether what was presented last has reached the display: to present before waits for that.
+  virtual bool free() const = 0;
 };
+
+/// A display that is not there: when it would take a new picture.
+struct VirtualRefresh {
+  double rate_hz = 60;
+  double phase = 0;  ///< of its period, 0 to 1
+};
+
+/// The first one after `now`.
+Time next_refresh(const VirtualRefresh& refresh, Time now);
 
 struct HeadlessOptions {
   /// Index of an EGL device (a GPU); empty: Mesa's surfaceless platform, or where there is none the
   /// first device.
   std::optional<int> device;
+  std::optional<VirtualRefresh> refresh{};  ///< empty: pictures are taken at any time
 };
 
 /// Throws Error that says which EGL step failed and what is there.

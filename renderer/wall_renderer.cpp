@@ -31,11 +31,14 @@ WallLayout layout_of(const Wall& wall, double scale) {
   const int step_y =
       scaled_px(grid.tile_height_px, scale) + gap_px(grid.bezel_y_mm, pitch_y_m, scale);
   WallLayout layout;
+  const int left = std::ranges::min(wall.tiles, {}, &Tile::column).column,
+            bottom = std::ranges::min(wall.tiles, {}, &Tile::row).row;
   for (const Tile& tile : wall.tiles) {
     const SizePx size{scaled_px(tile.width_px, scale), scaled_px(tile.height_px, scale)};
-    layout.tiles.push_back({tile.column * step_x, tile.row * step_y, size});
-    layout.size.width = std::max(layout.size.width, tile.column * step_x + size.width);
-    layout.size.height = std::max(layout.size.height, tile.row * step_y + size.height);
+    const RectPx place{(tile.column - left) * step_x, (tile.row - bottom) * step_y, size};
+    layout.tiles.push_back(place);
+    layout.size.width = std::max(layout.size.width, place.x + size.width);
+    layout.size.height = std::max(layout.size.height, place.y + size.height);
   }
   return layout;
 }
@@ -60,7 +63,23 @@ WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look)
 }
 
 void WallRenderer::show(const Scene& scene) {
-  scene_ = std::make_unique<GpuScene>(scene, renderer_.style());
+  prepare(scene);
+  show_prepared();
+}
+
+void WallRenderer::prepare(const Scene& scene) {
+  prepared_ = std::make_unique<GpuScene>(scene, renderer_.style());
+  prepared_->pose(Mat4::Identity(), 0);
+  const auto view = tile_view(wall_.tiles.front().corners, Vec3(0, 0, 2));
+  const GpuScene* const drawn = prepared_.get();
+  canvas_->begin();
+  canvas_->draw_into({0, 0, cell_});
+  if (view) renderer_.draw(*view, std::span(&drawn, 1));
+  glFinish();
+}
+
+void WallRenderer::show_prepared() {
+  if (prepared_) scene_ = std::move(prepared_);
 }
 
 WallFrame WallRenderer::draw(const FrameState& state, const Tile* only) {

@@ -19,7 +19,8 @@ struct WallLayout {
   std::vector<RectPx> tiles;  ///< in the order of Wall::tiles
 };
 
-/// Tiles in their places of the grid, each side scaled and rounded to at least one pixel.
+/// Tiles in their places of the grid, from the leftmost and lowest on, each side scaled and rounded
+/// to at least one pixel.
 WallLayout layout_of(const Wall& wall, double scale);
 
 struct WallFrame {
@@ -34,6 +35,10 @@ class WallRenderer {
 
   /// Replaces the scene; when that throws, the old one stays.
   void show(const Scene& scene);
+  /// The same in two steps: loads it beside the one that is shown, and draws it once unseen, so
+  /// that drivers have done what they do at first; then changes to it at once.
+  void prepare(const Scene& scene);
+  void show_prepared();
 
   /// Draws all tiles, or only one, into picture().
   WallFrame draw(const FrameState& state, const Tile* only = nullptr);
@@ -63,7 +68,7 @@ class WallRenderer {
   int cells_x_ = 1;
   int cells_y_ = 1;
   std::unique_ptr<Canvas> canvas_;
-  std::unique_ptr<GpuScene> scene_;
+  std::unique_ptr<GpuScene> scene_, prepared_;
 };
 
 }  // namespace vindu

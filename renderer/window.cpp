@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "renderer/gl/handle.h"
 #include "renderer/surface.h"
 
 namespace vindu {
@@ -84,7 +85,10 @@ class GlfwWindow final : public Window {
   }
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
-  ~GlfwWindow() override { glfwDestroyWindow(window_); }
+  ~GlfwWindow() override {
+    swapped_ = {};  // before its context goes
+    glfwDestroyWindow(window_);
+  }
 
   SizePx size() const override {
     SizePx size;
@@ -93,11 +97,13 @@ class GlfwWindow final : public Window {
   }
   void present() override {
     glfwSwapBuffers(window_);
+    swapped_ = gl::Fence::here();
     glfwPollEvents();
     if (glfwGetKey(window_, GLFW_KEY_ESCAPE) == GLFW_PRESS)
       glfwSetWindowShouldClose(window_, GLFW_TRUE);
   }
   bool close_wanted() const override { return glfwWindowShouldClose(window_); }
+  bool free() const override { return swapped_.passed(); }
 
   ScreenReport screen() const override {
     GLFWmonitor* monitor = current_monitor();
@@ -151,6 +157,7 @@ class GlfwWindow final : public Window {
 
   Glfw glfw_;
   GLFWwindow* window_ = nullptr;
+  gl::Fence swapped_;
   double wheel_ = 0;
   std::optional<std::string> dropped_;
 };

@@ -33,6 +33,7 @@ void fields(Op& op, Wire& wire, Value& state) {
   op.number(wire.scale, state.navigation.scale, kAboveZero);
   op.number(wire.animation_time_s, state.animation_time_s);
   op.choice(wire.mode, state.mode, Mode::track);
+  op.count(wire.overlays, state.overlays);
 }
 
 template <class Op, class Wire, class Value>

@@ -94,4 +94,32 @@ inline Buffer make_buffer(const void* data, std::size_t bytes, GLbitfield flags 
   return Buffer(name);
 }
 
+/// A point in the stream of commands; owns its sync object. The default one has passed.
+class Fence {
+ public:
+  Fence() = default;
+  Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
+  Fence& operator=(Fence&& other) noexcept {
+    std::swap(sync_, other.sync_);
+    return *this;
+  }
+  Fence(const Fence&) = delete;
+  Fence& operator=(const Fence&) = delete;
+  ~Fence() {
+    if (sync_) glDeleteSync(sync_);
+  }
+
+  static Fence here() {
+    Fence fence;
+    fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    return fence;
+  }
+  bool passed() const {
+    return !sync_ || glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, 0) != GL_TIMEOUT_EXPIRED;
+  }
+
+ private:
+  GLsync sync_ = nullptr;
+};
+
 }  // namespace vindu::gl

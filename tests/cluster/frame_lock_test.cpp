@@ -117,7 +117,8 @@ class SimulatedTile {
     ++life_;
     busy_ = false;
     bus.awake = bus.plugged = true;
-    tile_.emplace(bus, StatusMessage{.tile = name_, .host = name_, .incarnation = incarnation});
+    tile_.emplace(bus, StatusMessage{.host = name_, .incarnation = incarnation},
+                  std::vector{name_});
     wake();
   }
   void kill() {

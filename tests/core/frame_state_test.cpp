@@ -36,7 +36,8 @@ TEST(FrameHash, ChangesWithEveryField) {
       [](FrameState& state) { state.navigation.wall_from_scene.translation.z() += 1e-9; },
       [](FrameState& state) { state.navigation.scale += 1e-9; },
       [](FrameState& state) { state.animation_time_s += 1e-9; },
-      [](FrameState& state) { state.mode = Mode::loop; }};
+      [](FrameState& state) { state.mode = Mode::loop; },
+      [](FrameState& state) { state.overlays = kFrameCounter; }};
   std::set<std::uint64_t> hashes = {hash_of(some_state())};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     FrameState changed = some_state();

@@ -1,0 +1,312 @@
+// vindu master: ticks at the wall's rate, asks for the eye once a frame, tells all tiles, and holds
+// them together. Consoles ask it for another scene, mode or place on the running wall.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <future>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/emulation.h"
+#include "app/eye_source.h"
+#include "app/stop_signals.h"
+#include "app/wall_figures.h"
+#include "cluster/dds.h"
+#include "cluster/wall_master.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "renderer/resources.h"
+
+namespace vindu::app {
+namespace {
+
+struct MasterCommand {
+  std::string model;
+  std::string wall_file;
+  std::string path_file;
+  std::string mode = "track";
+  std::optional<Placement> place;
+  std::optional<double> seconds;
+  std::uint64_t seed = 52;
+  EmulationOptions emulation;
+  bool counter = false;
+  bool json = false;
+};
+
+/// Larger than that of any master before, as long as the host's clock goes forward.
+std::uint64_t new_epoch() {
+  return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch() /
+                                    std::chrono::nanoseconds(1));
+}
+
+std::vector<std::string> names_of(const Wall& wall) {
+  std::vector<std::string> names;
+  for (const Tile& tile : wall.tiles) names.push_back(tile.name);
+  return names;
+}
+
+/// As tiles are told: the show is part of every installation, a model has one path on all hosts.
+std::string path_for_tiles(const std::string& model, const Site& site) {
+  const std::string file = model.empty() ? site.scene.model : model;
+  return file.empty() ? "asset:show/show.glb" : std::filesystem::absolute(file).string();
+}
+
+/// Reads a model beside the frames that go on, to know that it can be read and where it stands.
+class Placing {
+ public:
+  void start(const std::string& model, std::optional<Placement> place, const Site& site) {
+    model_ = model;
+    place_ = place;
+    result_ = std::async(std::launch::async, [model, place, &site] {
+      return load_scene(model, place, site).navigation;
+    });
+  }
+  bool running() const { return result_.valid(); }
+  bool done() const {
+    return running() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
+  const std::string& model() const { return model_; }
+  std::optional<Placement> place() const { return place_; }
+  /// Throws what reading threw.
+  Navigation take() { return result_.get(); }
+
+ private:
+  std::string model_;
+  std::optional<Placement> place_;
+  std::future<Navigation> result_;
+};
+
+EmulatedRoomOptions room_options(const MasterCommand& command, const Clock& clock) {
+  EmulatedRoomOptions room;
+  room.person.seed = room.wiimote.seed = command.seed;
+  room.person.start = clock.now();
+  apply(command.emulation, room.wiimote);
+  return room;
+}
+
+class MasterRun {
+ public:
+  MasterRun(const MasterCommand& command, const Site& site)
+      : site_(site),
+        room_(site, clock_, room_options(command, clock_)),
+        transport_(dds_settings_of(site.cluster)),
+        bus_(transport_.join({{.role = Role::master,
+                               .name = "master",
+                               .host = host_name(),
+                               .version = VINDU_VERSION},
+                              {Topic::frame, Topic::scene, Topic::camera, Topic::answer},
+                              kHears})),
+        wall_(*bus_, {.epoch = new_epoch(),
+                      .host = host_name(),
+                      .tiles = names_of(site.wall),
+                      .barrier = {.lock = site.cluster.lock}}),
+        overlays_(command.counter ? std::uint32_t{kFrameCounter} : 0) {
+    set_mode(command.mode, command.path_file);
+    placing_.start(command.model, command.place, site);
+  }
+
+  /// Throws Error when the first scene cannot be read.
+  WallFigures run(const StopSignals& signals, std::optional<double> seconds_long) {
+    const Time start = clock_.now();
+    Time tick = start;
+    while (!stopped_ && !signals.came_within(Duration::zero())) {
+      const Time now = clock_.now();
+      if (seconds_long && seconds(now - start) > *seconds_long) break;
+      wall_.poll(now);
+      note_events();
+      follow_scenes();
+      for (const CommandMessage& command : bus_->take<CommandMessage>()) answer(command);
+      if (wall_.open() && now >= tick) {
+        begin(now);
+        const auto passed = static_cast<std::int64_t>(seconds(now - start) * site_.rate_hz + 1e-6);
+        tick = start + from_seconds(static_cast<double>(passed + 1) / site_.rate_hz);
+      }
+      Time wake = wall_.open() ? tick : wall_.wake_time();
+      if (placing_.running()) wake = std::min(wake, now + std::chrono::milliseconds(5));
+      bus_->wait(kHears, wake);
+    }
+    figures_.length = clock_.now() - start;
+    figures_.tiles = wall_.tiles();
+    return figures_;
+  }
+
+ private:
+  static constexpr Topics kHears = {Topic::ready, Topic::tile_status, Topic::presence,
+                                    Topic::command};
+
+  void set_mode(const std::string& mode, const std::string& path_file) {
+    if (mode == "loop") {
+      eyes_ = follow_path(
+          read_camera_path(path_file.empty() ? find_asset("paths/sweep.toml") : path_file));
+      return;
+    }
+    if (site_.cameras.empty())
+      throw Error({"names no [[camera]]", "--mode track",
+                   "add cameras to the wall file, or use --mode loop"});
+    eyes_ = std::make_unique<TrackedEye>(
+        site_, room_, clock_,
+        TrackedEyeOptions{.tracking = site_.tracking, .cameras = {.threads = true, .tap = {}}});
+  }
+
+  void begin(Time now) {
+    if (wall_.shown_scene() != navigated_scene_) {
+      navigated_scene_ = wall_.shown_scene();
+      if (const auto found = navigations_.find(navigated_scene_); found != navigations_.end())
+        navigation_ = found->second;
+    }
+    const Time photon =
+        now + figures_.to_light() + from_seconds(1e-3 * site_.viewer.display_latency_ms);
+    const EyeNow eye = eyes_->at(now, photon);
+    const FrameState state = {.photon_time = photon,
+                              .eye_in_wall = eye.eye_in_wall,
+                              .navigation = navigation_,
+                              .animation_time_s = seconds(now.time_since_epoch()),
+                              .mode = eye.mode,
+                              .overlays = overlays_};
+    wall_.begin(state, now);
+    figures_.begun(now, eye.pose ? std::optional(now - eye.pose->capture_time) : std::nullopt,
+                   eye.solve);
+    publish_camera(eye.eye_in_wall);
+  }
+
+  void publish_camera(const Vec3& eye_in_wall) {
+    const double half_width = site_.wall.grid.width_m / 2,
+                 half_height = site_.wall.grid.height_m / 2;
+    bus_->publish(CameraMessage{
+        .number = figures_.frames(),
+        .position_in_wall = eye_in_wall,
+        .room_from_wall = site_.wall.room_from_wall.rotation,
+        .frustum_m = {-half_width - eye_in_wall.x(), half_width - eye_in_wall.x(),
+                      -half_height - eye_in_wall.y(), half_height - eye_in_wall.y()}});
+  }
+
+  void note_events() {
+    for (const FrameSkew& skew : wall_.take_skews()) figures_.add(skew);
+    for (const MemberEvent& event : wall_.take_events()) {
+      figures_.add(event);
+      const std::string what = fmt::format("{} at frame {}", name_of(event.change), event.number);
+      if (event.change == MemberChange::evicted)
+        log_warning(event.tile, fmt::format("{} after {:.0f} ms: the others go on", what,
+                                            1e3 * seconds(event.waited)));
+      else
+        log_info(event.tile, what);
+    }
+  }
+
+  /// A scene that can be read goes out to the tiles; its place counts from the frame on in which
+  /// they change to it.
+  void follow_scenes() {
+    if (!placing_.done()) return;
+    try {
+      const Navigation navigation = placing_.take();
+      const Placement place = placing_.place().value_or(Placement::fit);
+      const std::uint64_t revision = wall_.show(path_for_tiles(placing_.model(), site_), "", place);
+      navigations_[revision] = navigation;
+      reply(asked_scene_, true, "");
+    } catch (const Error& error) {
+      if (asked_scene_.request == 0) throw;
+      reply(asked_scene_, false, error.what());
+    }
+    asked_scene_ = {};
+  }
+
+  void reply(const CommandMessage& command, bool done, const std::string& text) {
+    if (command.request == 0) return;
+    bus_->publish(AnswerMessage{.sender = command.sender,
+                                .request = command.request,
+                                .from = "master",
+                                .done = done,
+                                .text = text});
+  }
+
+  void answer(const CommandMessage& command) {
+    try {
+      obey(command);
+    } catch (const Error& error) {
+      reply(command, false, error.what());
+    }
+  }
+
+  void obey(const CommandMessage& command) {
+    switch (command.verb) {
+      case Verb::show:
+        if (placing_.running())
+          return reply(command, false, "another scene is being read; ask again");
+        asked_scene_ = command;
+        return placing_.start(command.argument, std::nullopt, site_);
+      case Verb::mode:
+        set_mode(command.argument, "");
+        break;
+      case Verb::pattern:
+        set_pattern(command.argument);
+        break;
+      case Verb::stop:
+        stopped_ = true;
+        break;
+      case Verb::go_to:
+      case Verb::blank:
+        throw Error({"is not understood", "the master", "install the newest vindu on it"});
+    }
+    reply(command, true, "");
+  }
+
+  void set_pattern(const std::string& pattern) {
+    if (pattern != "counter" && pattern != "none")
+      throw Error({"there is no pattern " + pattern, "pattern", "choose counter or none"});
+    overlays_ = pattern == "counter" ? std::uint32_t{kFrameCounter} : 0;
+  }
+
+  MonotonicClock clock_;
+  const Site& site_;
+  EmulatedRoom room_;
+  DdsTransport transport_;
+  std::unique_ptr<Bus> bus_;
+  WallMaster wall_;
+  std::unique_ptr<EyeSource> eyes_;
+  Placing placing_;
+  CommandMessage asked_scene_;  // answered when it could be read; request 0: the first one
+  std::map<std::uint64_t, Navigation> navigations_;  // by scene
+  std::uint64_t navigated_scene_ = 0;
+  Navigation navigation_;
+  std::uint32_t overlays_;
+  bool stopped_ = false;
+  WallFigures figures_;
+};
+
+int master(const MasterCommand& command) {
+  const Site site = load_site(command.wall_file);
+  const StopSignals signals;
+  const WallFigures figures = MasterRun(command, site).run(signals, command.seconds);
+  std::fputs((command.json ? figures.json() : figures.table()).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_master(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<MasterCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "master", "The wall's master: finds the eye, ticks, and holds the tiles together");
+  app->add_option("MODEL", command->model,
+                  "Any model that Assimp reads (default: the wall file's, or the show)");
+  app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
+      ->type_name("FILE");
+  add_place(*app, command->place);
+  app->add_option("--mode", command->mode, "track: the eye is tracked; loop: it follows a path")
+      ->check(CLI::IsMember({"track", "loop"}));
+  app->add_option("--path", command->path_file, "Camera path of the mode loop")->type_name("FILE");
+  app->add_option("--seconds", command->seconds, "Length (default: until it is stopped)")
+      ->check(between(0.05, 1e8));
+  app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
+  app->add_flag("--counter", command->counter, "Tiles show each frame's number");
+  app->add_flag("--json", command->json, "Figures as JSON");
+  add_emulation(*app, command->emulation);
+  app->footer(
+      "\nExamples:\n"
+      "  vindu master --wall wall.toml\n"
+      "  vindu master model.glb --mode loop --seconds 60\n");
+  app->callback([command, &chosen] { chosen = [command] { return master(*command); }; });
+}
+
+}  // namespace vindu::app

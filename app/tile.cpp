@@ -1,0 +1,330 @@
+// vindu tile: a tile of the wall, or several of one host. It hears frames from the master, draws
+// its part of each, and shows it when all tiles have theirs.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <future>
+#include <random>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/stop_signals.h"
+#include "cluster/dds.h"
+#include "cluster/wall_tile.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "renderer/frame_counter.h"
+#include "renderer/notice.h"
+#include "renderer/resources.h"
+#include "renderer/surface.h"
+#include "renderer/wall_renderer.h"
+
+namespace vindu::app {
+namespace {
+
+struct TileCommand {
+  std::vector<std::string> tiles;
+  std::string wall_file;
+  std::string shown_file;
+  std::optional<double> scale;
+  std::optional<int> device;
+  std::optional<double> refresh_hz;
+  double refresh_phase = 0;
+  bool headless = false;
+};
+
+std::uint64_t random_id() {
+  std::random_device device;
+  return std::uint64_t{device()} << 32 | device() | 1;
+}
+
+/// The wall with these tiles alone. Throws Error for a name that it lacks.
+Wall part_of(const Wall& wall, const std::vector<std::string>& names) {
+  Wall part = wall;
+  part.tiles.clear();
+  for (const std::string& name : names) {
+    const auto tile = std::ranges::find(wall.tiles, name, &Tile::name);
+    if (tile == wall.tiles.end())
+      throw Error({"the wall has no tile " + name, "--wall",
+                   fmt::format("name one of {} to {}, or start it on a host of that name",
+                               wall.tiles.front().name, wall.tiles.back().name)});
+    part.tiles.push_back(*tile);
+  }
+  return part;
+}
+
+std::string model_file(const std::string& path) {
+  constexpr std::string_view kAsset = "asset:";
+  return path.starts_with(kAsset) ? find_asset(path.substr(kAsset.size())) : path;
+}
+
+/// A scene that is read beside the frames that go on.
+class Loading {
+ public:
+  void start(const SceneMessage& scene) {
+    revision_ = scene.revision;
+    result_ = std::async(std::launch::async,
+                         [path = scene.path] { return read_model(model_file(path)); });
+  }
+  bool done() const {
+    return result_.valid() &&
+           result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
+  bool running() const { return result_.valid(); }
+  std::uint64_t revision() const { return revision_; }
+  /// Throws what loading threw.
+  Scene take() { return result_.get(); }
+
+ private:
+  std::uint64_t revision_ = 0;
+  std::future<Scene> result_;
+};
+
+/// A line for each swap: when, which frame, and which number its pixels show.
+class ShownFile {
+ public:
+  explicit ShownFile(const std::string& file) {
+    if (file.empty()) return;
+    stream_.open(file);
+    if (!stream_) throw Error({"cannot be written", file, "choose another --shown"});
+    stream_ << "time_ns,epoch,frame,tile,pixels,eye_x_m\n";
+  }
+  bool wanted() const { return stream_.is_open(); }
+  void add(Time time, const FrameMessage& frame, const std::string& tile, const Image& picture) {
+    const auto number = read_frame_counter(picture);
+    stream_ << time.time_since_epoch().count() << ',' << frame.epoch << ',' << frame.newest.number
+            << ',' << tile << ',' << (number ? std::to_string(*number) : "") << ','
+            << frame.newest.eye_in_wall.x() << '\n';
+  }
+
+ private:
+  std::ofstream stream_;
+};
+
+/// The pictures of this process' tiles, and what they show when there is no scene.
+class TilePainter {
+ public:
+  TilePainter(const Wall& part, double scale, Surface& surface)
+      : part_(part), surface_(surface), renderer_(part, scale, live_look()) {}
+
+  WallRenderer& renderer() { return renderer_; }
+
+  void note(const std::vector<std::string>& lines) {
+    for (std::size_t i = 0; i < part_.tiles.size(); ++i) {
+      const RectPx& place = renderer_.layout().tiles[i];
+      renderer_.picture().write(draw_notice({part_.tiles[i].name, lines}, place.size), place.x,
+                                place.y);
+    }
+  }
+
+  /// `words` stand where there is no scene to show.
+  void draw(const FrameState& state, const std::vector<std::string>& words) {
+    if (words.empty())
+      renderer_.draw(state);
+    else
+      note(words);
+    if (state.overlays & kFrameCounter)
+      for (const RectPx& place : renderer_.layout().tiles)
+        draw_frame_counter(state.number, place, renderer_.picture());
+    renderer_.finish();
+  }
+
+  void present() {
+    if (const SizePx size = surface_.size(); size.width > 0 && size.height > 0) {
+      glBindFramebuffer(GL_FRAMEBUFFER, 0);
+      glViewport(0, 0, size.width, size.height);
+      const bool one = part_.tiles.size() == 1;
+      renderer_.renderer().present(renderer_.picture(),
+                                   one ? part_.tiles.front().mount : TileMount{});
+    }
+    surface_.present();
+  }
+
+ private:
+  Wall part_;
+  Surface& surface_;
+  WallRenderer renderer_;
+};
+
+std::unique_ptr<Surface> surface_for(const TileCommand& command, const Wall& part) {
+  if (command.headless || !has_display()) {
+    HeadlessOptions options{.device = command.device};
+    if (command.refresh_hz) options.refresh = {*command.refresh_hz, command.refresh_phase};
+    return make_headless_surface(options);
+  }
+  const WallLayout layout = layout_of(part, command.scale.value_or(1));
+  return make_window({.size = layout.size,
+                      .title = part.tiles.front().name,
+                      .fullscreen = part.tiles.size() == 1 && !command.scale});
+}
+
+class TileRun {
+ public:
+  TileRun(const TileCommand& command, const Site& site)
+      : site_(site),
+        part_(part_of(site.wall, command.tiles)),
+        transport_(dds_settings_of(site.cluster)),
+        bus_(transport_.join({{.role = Role::tile,
+                               .name = command.tiles.front(),
+                               .host = host_name(),
+                               .version = VINDU_VERSION},
+                              WallTile::publishes(),
+                              WallTile::hears()})),
+        tile_(*bus_, {.host = host_name(), .incarnation = random_id(), .version = VINDU_VERSION},
+              command.tiles),
+        shown_(command.shown_file) {
+    tile_.poll(clock_.now());  // "loading", before anything that takes its time
+    surface_ = surface_for(command, part_);
+    tile_.renders_with(gl_description());
+    painter_.emplace(part_, command.scale.value_or(1), *surface_);
+    log_info(command.tiles.front(), gl_description());
+  }
+
+  void run(const StopSignals& signals) {
+    while (!signals.came_within(Duration::zero()) && !surface_->close_wanted()) step();
+  }
+
+ private:
+  void step() {
+    const Time now = clock_.now();
+    tile_.poll(now);
+    handle_scenes();
+    switch (tile_.next(now, surface_->free())) {
+      case WallTile::Next::show:
+        return show();
+      case WallTile::Next::draw:
+        return draw(now);
+      case WallTile::Next::wait:
+        return wait(now);
+    }
+  }
+
+  void wait(Time now) {
+    if (!has_scene_ || tile_.alone(now)) notice(now);
+    // A display's refresh and a scene that is being read wake nobody.
+    const bool poll = !surface_->free() || loading_.running();
+    const Time wake = tile_.wake_time(now);
+    bus_->wait(WallTile::hears(), poll ? std::min(wake, now + std::chrono::milliseconds(1)) : wake);
+  }
+
+  void draw(Time now) {
+    frame_ = *tile_.to_draw();
+    if (prepared_ == frame_.scene_revision && prepared_ != 0) {
+      painter_->renderer().show_prepared();
+      has_scene_ = true;
+      failed_.clear();
+      prepared_ = 0;
+    }
+    if (failed_revision_ == frame_.scene_revision && !failed_.empty()) has_scene_ = false;
+    painter_->draw(frame_.newest, has_scene_ ? std::vector<std::string>{} : notice_lines(now));
+    tile_.drew(frame_.newest.number, now, clock_.now());
+  }
+
+  void show() {
+    painter_->present();
+    const Time now = clock_.now();
+    tile_.showed(now);
+    if (shown_.wanted())
+      for (std::size_t i = 0; i < part_.tiles.size(); ++i)
+        shown_.add(now, frame_, part_.tiles[i].name, painter_->renderer().read_tile(i));
+  }
+
+  void handle_scenes() {
+    if (auto scene = tile_.take_scene()) wanted_ = std::move(scene);
+    if (loading_.done()) {
+      const std::uint64_t revision = loading_.revision();
+      try {
+        painter_->renderer().prepare(loading_.take());
+        prepared_ = revision;
+        tile_.loaded(revision);
+      } catch (const Error& error) {
+        failed_ = error.what();
+        failed_revision_ = revision;
+        log_warning(part_.tiles.front().name, failed_);
+        tile_.could_not_load(revision, failed_);
+      }
+    }
+    if (wanted_ && !loading_.running()) {
+      loading_.start(*wanted_);
+      wanted_.reset();
+    }
+  }
+
+  std::vector<std::string> notice_lines(Time now) const {
+    if (tile_.alone(now))
+      return {"on " + host_name(), "waits for the master of \"" + site_.cluster.name + "\""};
+    if (!failed_.empty()) return {"on " + host_name(), failed_};
+    return {"on " + host_name(), "loading"};
+  }
+
+  /// Where no frames come, or before the first scene: twice a second.
+  void notice(Time now) {
+    if (now - noticed_ < std::chrono::milliseconds(500) || (has_scene_ && !tile_.alone(now)) ||
+        !surface_->free())
+      return;
+    noticed_ = now;
+    painter_->note(notice_lines(now));
+    painter_->present();
+  }
+
+  MonotonicClock clock_;
+  const Site& site_;
+  Wall part_;
+  DdsTransport transport_;
+  std::unique_ptr<Bus> bus_;
+  WallTile tile_;
+  ShownFile shown_;
+  std::unique_ptr<Surface> surface_;
+  std::optional<TilePainter> painter_;
+  Loading loading_;
+  std::optional<SceneMessage> wanted_;
+  FrameMessage frame_;
+  std::uint64_t prepared_ = 0, failed_revision_ = 0;
+  std::string failed_;
+  bool has_scene_ = false;
+  Time noticed_{};
+};
+
+int tile(const TileCommand& command) {
+  const Site site = load_site(command.wall_file);
+  TileCommand own = command;
+  if (own.tiles.empty()) own.tiles = {host_name()};
+  const StopSignals signals;
+  TileRun run(own, site);
+  run.run(signals);
+  return 0;
+}
+
+}  // namespace
+
+void add_tile(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<TileCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "tile", "A tile of the wall, or several of one host: draws what the master says");
+  app->add_option("TILE", command->tiles, "tile-X-Y, one or more (default: this host's name)");
+  app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
+      ->type_name("FILE");
+  app->add_flag("--headless", command->headless, "Without a display, by EGL");
+  app->add_option("--device", command->device, "EGL device without a display (a GPU's index)");
+  app->add_option("--scale", command->scale,
+                  "Of the tile's pixels, for slow machines; in a window of that size")
+      ->check(between(0.01, 1.0));
+  app->add_option("--refresh-hz", command->refresh_hz,
+                  "Without a display: refreshes of the one that is played")
+      ->check(between(1.0, 1000.0));
+  app->add_option("--refresh-phase", command->refresh_phase, "And their phase, 0 to 1")
+      ->check(between(0.0, 1.0));
+  app->add_option("--shown", command->shown_file,
+                  "Writes for each swap when it was, which frame it showed, and the number\n"
+                  "that a frame counter (vindu pattern counter) shows in the pixels")
+      ->type_name("FILE");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu tile --wall wall.toml                     on the host tile-3-0: that tile\n"
+      "  vindu tile tile-0-0 tile-1-0 --wall wall.toml   two of them\n"
+      "  vindu tile tile-0-0 --headless --scale 0.1      without a display\n");
+  app->callback([command, &chosen] { chosen = [command] { return tile(*command); }; });
+}
+
+}  // namespace vindu::app
