@@ -95,7 +95,7 @@ class ShownFile {
     const auto number = read_frame_counter(picture);
     stream_ << time.time_since_epoch().count() << ',' << frame.epoch << ',' << frame.newest.number
             << ',' << tile << ',' << (number ? std::to_string(*number) : "") << ','
-            << frame.newest.eye_in_wall.x() << '\n';
+            << frame.newest.eye_in_wall.x() << std::endl;  // at once: a tile may be killed
   }
 
  private:
@@ -201,7 +201,7 @@ class TileRun {
   }
 
   void wait(Time now) {
-    if (!has_scene_ || tile_.alone(now)) notice(now);
+    if (tile_.alone(now)) notice(now);
     // A display's refresh and a scene that is being read wake nobody.
     const bool poll = !surface_->free() || loading_.running();
     const Time wake = tile_.wake_time(now);
@@ -258,11 +258,9 @@ class TileRun {
     return {"on " + host_name(), "loading"};
   }
 
-  /// Where no frames come, or before the first scene: twice a second.
+  /// Where no frames come: twice a second.
   void notice(Time now) {
-    if (now - noticed_ < std::chrono::milliseconds(500) || (has_scene_ && !tile_.alone(now)) ||
-        !surface_->free())
-      return;
+    if (now - noticed_ < std::chrono::milliseconds(500) || !surface_->free()) return;
     noticed_ = now;
     painter_->note(notice_lines(now));
     painter_->present();

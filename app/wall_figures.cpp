@@ -70,9 +70,9 @@ std::string WallFigures::table() const {
   }
   std::string text = fmt::format(
       "{} frames in {:.1f} s, {:.1f} a second; {} of {} tiles in the lock, {} seen; {} evicted, {} "
-      "left, {} restarted\n",
+      "lost, {} restarted\n",
       frames_, seconds(length), static_cast<double>(frames_) / std::max(seconds(length), 1e-9),
-      locked, tiles.size(), present, count(MemberChange::evicted), count(MemberChange::left),
+      locked, tiles.size(), present, count(MemberChange::evicted), count(MemberChange::lost),
       count(MemberChange::restarted));
   text += fmt::format("  {:<24}{:>9}{:>9}{:>9}\n", "", "p50", "p99", "max");
   text += row("between frames", gaps_ms_);
@@ -88,9 +88,9 @@ std::string WallFigures::json() const {
     return found == changes_.end() ? 0 : found->second;
   };
   std::string text = fmt::format(
-      "{{\"frames\":{},\"seconds\":{:.3f},\"evicted\":{},\"left\":{},\"restarted\":{},"
+      "{{\"frames\":{},\"seconds\":{:.3f},\"evicted\":{},\"lost\":{},\"restarted\":{},"
       "\"milliseconds\":{{{},{},{},{},{}}},\"tiles\":{{",
-      frames_, seconds(length), count(MemberChange::evicted), count(MemberChange::left),
+      frames_, seconds(length), count(MemberChange::evicted), count(MemberChange::lost),
       count(MemberChange::restarted), json_row("between_frames", gaps_ms_),
       json_row("capture_to_tick", capture_ages_ms_), json_row("solve", solves_ms_),
       json_row("tick_to_last_swap", to_light_ms_), json_row("skew", skews_ms_));

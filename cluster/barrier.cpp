@@ -72,9 +72,9 @@ bool Barrier::hear(const ReadyMessage& ready, Time now) {
 
 void Barrier::leave(const std::string& tile) {
   const auto found = members_.find(tile);
-  if (found == members_.end() || found->second.incarnation == 0) return;
-  found->second = {};
-  note(tile, MemberChange::left);
+  if (found == members_.end() || found->second.number == 0) return;
+  found->second = {.incarnation = found->second.incarnation};
+  note(tile, MemberChange::lost);
 }
 
 Duration Barrier::patience() const {

@@ -27,10 +27,10 @@ struct BarrierOptions {
   Duration timed_margin = std::chrono::milliseconds(3);
 };
 
-enum class MemberChange { admitted, evicted, left, restarted };
+enum class MemberChange { admitted, evicted, lost, restarted };
 
 constexpr std::string_view name_of(MemberChange change) {
-  constexpr std::string_view names[] = {"admitted", "evicted", "left", "restarted"};
+  constexpr std::string_view names[] = {"admitted", "evicted", "lost", "restarted"};
   return names[static_cast<int>(change)];
 }
 

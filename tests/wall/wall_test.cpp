@@ -1,0 +1,197 @@
+// A wall of real processes on loopback: a master and tiles that draw. Which frame a tile showed is
+// read from its pixels. Nothing here says how long anything may take.
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "tests/app/process.h"
+#include "tests/wall/children.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+
+/// One swap, as --shown writes it.
+struct Swap {
+  std::string epoch;
+  std::uint64_t frame = 0;
+  std::string tile;
+  std::string pixels;
+  std::string eye_x_m;
+};
+
+std::vector<Swap> swaps_in(const std::string& file) {
+  std::vector<Swap> swaps;
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line) && !stream.eof()) {
+    std::istringstream words(line);
+    Swap swap;
+    std::string time, frame;
+    std::getline(words, time, ',');
+    std::getline(words, swap.epoch, ',');
+    std::getline(words, frame, ',');
+    std::getline(words, swap.tile, ',');
+    std::getline(words, swap.pixels, ',');
+    std::getline(words, swap.eye_x_m, ',');
+    swap.frame = std::stoull(frame);
+    swaps.push_back(swap);
+  }
+  return swaps;
+}
+
+class WallTest : public AppTest {
+ protected:
+  WallTest()
+      : wall_file_(write("wall.toml",
+                         "[wall]\ncolumns = 2\nrows = 2\nwidth_m = 2\nheight_m = 1.5\n"
+                         "tile_width_px = 1024\ntile_height_px = 768\n"
+                         "[cluster]\nname = \"test-" +
+                             std::to_string(getpid()) + "\"\n")) {}
+
+  Child start_tiles(const std::vector<std::string>& tiles, const std::string& shown) const {
+    std::vector<std::string> words = {VINDU_PROGRAM, "tile",     "--headless", "--scale",  "0.1",
+                                      "--wall",      wall_file_, "--shown",    path(shown)};
+    words.insert(words.end(), tiles.begin(), tiles.end());
+    return Child(words, path(shown + ".log"));
+  }
+  Child start_tile(const std::string& tile) const { return start_tiles({tile}, tile + ".csv"); }
+  Child start_master(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {VINDU_PROGRAM, "master", small_model(), "--wall", wall_file_,
+                                      "--mode",      "loop",   "--counter",   "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Child(words, path("master.log"));
+  }
+
+  /// Until the file has so many swaps more.
+  void await_swaps(const std::string& shown, std::size_t more) const {
+    const std::size_t before = swaps_in(path(shown)).size();
+    while (swaps_in(path(shown)).size() < before + more)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  void await_log(const std::string& text) const {
+    while (bytes_of(path("master.log")).find(text) == std::string::npos)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+
+  /// Every swap showed, in its pixels, the frame that it said; frames come in order; all tiles had
+  /// one eye in one frame.
+  void expect_right(const std::vector<std::string>& files) const {
+    std::map<std::pair<std::string, std::uint64_t>, std::string> eye_of;
+    for (const std::string& file : files) {
+      std::map<std::string, std::map<std::string, std::uint64_t>> last;  // by tile and epoch
+      for (const Swap& swap : swaps_in(path(file))) {
+        ASSERT_EQ(swap.pixels, std::to_string(swap.frame)) << file;
+        std::uint64_t& before = last[swap.tile][swap.epoch];
+        ASSERT_GT(swap.frame, before) << file;
+        before = swap.frame;
+        const auto [eye, added] = eye_of.try_emplace({swap.epoch, swap.frame}, swap.eye_x_m);
+        ASSERT_EQ(eye->second, swap.eye_x_m) << file << " frame " << swap.frame;
+      }
+    }
+  }
+
+  static std::vector<std::string> all() { return {"tile-0-0", "tile-1-0", "tile-0-1", "tile-1-1"}; }
+  static std::vector<std::string> files() {
+    std::vector<std::string> files = all();
+    for (std::string& file : files) file += ".csv";
+    return files;
+  }
+
+  std::string wall_file_;
+};
+
+TEST_F(WallTest, ShowsTheSameFramesOnAllTilesAndTheirPixelsSaySo) {
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  Child master = start_master();
+  for (const std::string& file : files()) await_swaps(file, 60);
+  master.send(SIGINT);
+  EXPECT_EQ(master.end(), 0);
+  expect_right(files());
+  EXPECT_THAT(bytes_of(path("master.log")), HasSubstr("\"frames\":"));
+  for (Child& tile : tiles) {
+    tile.send(SIGTERM);
+    EXPECT_EQ(tile.end(), 0);
+  }
+}
+
+TEST_F(WallTest, GoesOnWithoutATileThatIsKilledAndTakesItInAgain) {
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  Child master = start_master();
+  for (const std::string& file : files()) await_swaps(file, 30);
+  tiles[2].send(SIGKILL);
+  EXPECT_EQ(tiles[2].end(), 128 + SIGKILL);
+  for (const char* tile : {"tile-0-0", "tile-1-0", "tile-1-1"})
+    await_swaps(std::string(tile) + ".csv", 40);
+  Child again = start_tiles({"tile-0-1"}, "again.csv");
+  await_log("tile-0-1: restarted");
+  await_swaps("again.csv", 30);
+  expect_right({"tile-0-0.csv", "tile-1-0.csv", "tile-0-1.csv", "tile-1-1.csv", "again.csv"});
+}
+
+TEST_F(WallTest, GoesOnWithoutATileThatHangsUntilItGoesOnItself) {
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  Child master = start_master();
+  for (const std::string& file : files()) await_swaps(file, 30);
+  tiles[0].send(SIGSTOP);
+  await_log("tile-0-0: lost");
+  await_swaps("tile-1-1.csv", 40);
+  tiles[0].send(SIGCONT);
+  await_swaps("tile-0-0.csv", 40);
+  expect_right(files());
+}
+
+TEST_F(WallTest, FollowsAMasterThatIsKilledAndStartedAgain) {
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  {
+    Child first = start_master();
+    for (const std::string& file : files()) await_swaps(file, 30);
+    first.send(SIGKILL);
+    first.end();
+  }
+  Child second = start_master();
+  for (const std::string& file : files()) await_swaps(file, 30);
+  expect_right(files());
+  for (const std::string& file : files()) {
+    const std::vector<Swap> swaps = swaps_in(path(file));
+    EXPECT_NE(swaps.front().epoch, swaps.back().epoch);
+  }
+}
+
+TEST_F(WallTest, DrawsSeveralTilesInOneProcess) {
+  Child tiles = start_tiles(all(), "all.csv");
+  Child master = start_master();
+  await_swaps("all.csv", 200);
+  expect_right({"all.csv"});
+  std::map<std::string, std::size_t> swaps;
+  for (const Swap& swap : swaps_in(path("all.csv"))) ++swaps[swap.tile];
+  EXPECT_EQ(swaps.size(), 4u);
+}
+
+TEST_F(WallTest, EndsWithAnErrorWhereTheMasterCannotReadItsFirstModel) {
+  const ProcessResult result =
+      vindu({"master", "no-such.glb", "--wall", wall_file_, "--mode", "loop"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("no-such.glb"));
+}
+
+TEST_F(WallTest, SaysWhichTilesThereAreWhenOneIsNotOfTheWall) {
+  const ProcessResult result = vindu({"tile", "tile-9-9", "--wall", wall_file_, "--headless"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("tile-9-9"));
+  EXPECT_THAT(result.err, HasSubstr("tile-0-0 to tile-1-1"));
+}
+
+}  // namespace
+}  // namespace vindu
