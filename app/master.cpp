@@ -10,6 +10,7 @@
 #include "app/common.h"
 #include "app/emulation.h"
 #include "app/eye_source.h"
+#include "app/remote_eye.h"
 #include "app/stop_signals.h"
 #include "app/wall_figures.h"
 #include "cluster/dds.h"
@@ -30,6 +31,7 @@ struct MasterCommand {
   std::optional<double> seconds;
   std::uint64_t seed = 52;
   EmulationOptions emulation;
+  bool tracker_elsewhere = false;
   bool counter = false;
   bool json = false;
 };
@@ -96,11 +98,12 @@ class MasterRun {
                                .host = host_name(),
                                .version = VINDU_VERSION},
                               {Topic::frame, Topic::scene, Topic::camera, Topic::answer},
-                              kHears})),
+                              kJoins})),
         wall_(*bus_, {.epoch = new_epoch(),
                       .host = host_name(),
                       .tiles = names_of(site.wall),
                       .barrier = {.lock = site.cluster.lock}}),
+        elsewhere_(command.tracker_elsewhere),
         overlays_(command.counter ? std::uint32_t{kFrameCounter} : 0) {
     set_mode(command.mode, command.path_file);
     placing_.start(command.model, command.place, site);
@@ -134,6 +137,8 @@ class MasterRun {
  private:
   static constexpr Topics kHears = {Topic::ready, Topic::tile_status, Topic::presence,
                                     Topic::command};
+  static constexpr Topics kJoins = {Topic::ready, Topic::tile_status, Topic::presence,
+                                    Topic::command, Topic::pose};
 
   void set_mode(const std::string& mode, const std::string& path_file) {
     if (mode == "loop") {
@@ -141,12 +146,12 @@ class MasterRun {
           read_camera_path(path_file.empty() ? find_asset("paths/sweep.toml") : path_file));
       return;
     }
-    if (site_.cameras.empty())
-      throw Error({"names no [[camera]]", "--mode track",
-                   "add cameras to the wall file, or use --mode loop"});
-    eyes_ = std::make_unique<TrackedEye>(
-        site_, room_, clock_,
-        TrackedEyeOptions{.tracking = site_.tracking, .cameras = {.threads = true, .tap = {}}});
+    std::unique_ptr<EyeSource> own;
+    if (!site_.cameras.empty() && !elsewhere_)
+      own = std::make_unique<TrackedEye>(
+          site_, room_, clock_,
+          TrackedEyeOptions{.tracking = site_.tracking, .cameras = {.threads = true, .tap = {}}});
+    eyes_ = std::make_unique<RemoteEye>(*bus_, site_, std::move(own));
   }
 
   void begin(Time now) {
@@ -269,6 +274,7 @@ class MasterRun {
   std::map<std::uint64_t, Navigation> navigations_;  // by scene
   std::uint64_t navigated_scene_ = 0;
   Navigation navigation_;
+  bool elsewhere_;
   std::uint32_t overlays_;
   bool stopped_ = false;
   WallFigures figures_;
@@ -299,6 +305,9 @@ void add_master(CLI::App& parent, Action& chosen) {
   app->add_option("--seconds", command->seconds, "Length (default: until it is stopped)")
       ->check(between(0.05, 1e8));
   app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
+  app->add_flag("--tracker-elsewhere", command->tracker_elsewhere,
+                "Leaves the wall file's cameras to vindu track --publish on another host;\n"
+                "without it they are asked while no such tracker is heard");
   app->add_flag("--counter", command->counter, "Tiles show each frame's number");
   app->add_flag("--json", command->json, "Figures as JSON");
   add_emulation(*app, command->emulation);

@@ -13,6 +13,7 @@
 #include "app/emulation.h"
 #include "app/pose_lines.h"
 #include "app/stop_signals.h"
+#include "cluster/dds.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "tracker/wiimote/gaps.h"
@@ -29,6 +30,8 @@ struct TrackCommand {
   std::uint64_t seed = 52;
   EmulationOptions emulation;
   bool json = false;
+  bool publish = false;
+  int strength = 10;
 };
 
 Site site_for(const TrackCommand& command) {
@@ -81,6 +84,33 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
   return line;
 }
 
+/// Heads that are seen now, on the topic pose. What is held or lost is not said: then a weaker
+/// tracker is heard.
+class Publisher {
+ public:
+  Publisher(const Site& site, int strength)
+      : transport_(dds_settings_of(site.cluster)),
+        bus_(transport_.join({{.role = Role::tracker,
+                               .name = "tracker-" + host_name(),
+                               .host = host_name(),
+                               .version = VINDU_VERSION},
+                              {Topic::pose},
+                              {},
+                              strength})) {}
+
+  void publish(const Tracker& tracker, const std::optional<PoseSample>& followed, Time now) {
+    for (const PoseSample& pose : tracker.poses())
+      if (pose.level < TrackingLevel::held)
+        bus_->publish(PoseMessage{.pose = pose,
+                                  .sent_time = now,
+                                  .followed = followed && followed->object == pose.object});
+  }
+
+ private:
+  DdsTransport transport_;
+  std::unique_ptr<Bus> bus_;
+};
+
 std::string text_of(const GestureEvent& event, const Site& site) {
   const std::string& who = site.heads[static_cast<std::size_t>(event.object)].name;
   const std::string what = event.target.empty()
@@ -118,6 +148,8 @@ int track(const TrackCommand& command) {
   const Cameras cameras(site, room, clock);
   Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
   PoseLines lines(site, targets);
+  std::optional<Publisher> publisher;
+  if (command.publish) publisher.emplace(site, command.strength);
   const Duration ahead = from_seconds(1e-3 * command.predict_ms);
   const bool terminal = !command.json && isatty(STDERR_FILENO) == 1;
   const Time begin = clock.now();
@@ -130,6 +162,7 @@ int track(const TrackCommand& command) {
     for (const auto& camera : cameras.sources())
       while (const auto seen = camera->next(now)) tracker.absorb(*seen);
     const auto pose = tracker.track(now, now + ahead);
+    if (publisher) publisher->publish(tracker, pose, clock.now());
     for (const std::string& line : lines.news(tracker, {}))
       if (command.json) std::puts(line.c_str());
     if (!command.json)
@@ -155,6 +188,11 @@ void add_track(CLI::App& parent, Action& chosen) {
       ->type_name("FILE");
   app->add_flag("--json", command->json,
                 "A line of JSON for each pose, gesture, and change of a camera");
+  app->add_flag("--publish", command->publish,
+                "Poses go to the wall's master, by [cluster] of the wall file");
+  app->add_option("--strength", command->strength,
+                  "Of several trackers that publish the stronger is heard (default: 10)")
+      ->check(CLI::Range(2, 1000));
   app->add_option("--predict-ms", command->predict_ms,
                   "The eye so long after each tick (default: 0)")
       ->check(between(0.0, 1000.0));

@@ -53,4 +53,14 @@ std::optional<OffsetEstimate> ClockOffset::at(Time here) const {
   return OffsetEstimate{quickest.offset + from_seconds(offset_s), quickest.half_delay, 1e6 * drift};
 }
 
+void OneWayOffset::add(Time sent_there, Time received_here) {
+  differences_.push_back(received_here - sent_there);
+  if (differences_.size() > kKept) differences_.pop_front();
+}
+
+std::optional<Time> OneWayOffset::here(Time there) const {
+  if (differences_.empty()) return std::nullopt;
+  return there + *std::ranges::min_element(differences_);
+}
+
 }  // namespace vindu

@@ -44,4 +44,18 @@ class ClockOffset {
   std::deque<Sample> quickest_;  // one of each period
 };
 
+/// Another host's times on this one's clock, from messages that come one way alone: by the least
+/// difference between receiving and sending of the last ones. It is too late by what the fastest of
+/// them took, some 0.1 ms in a wall's network, and alike on all hosts.
+class OneWayOffset {
+ public:
+  void add(Time sent_there, Time received_here);
+  /// Empty before the first message.
+  std::optional<Time> here(Time there) const;
+
+ private:
+  static constexpr std::size_t kKept = 240;  // some seconds
+  std::deque<Duration> differences_;
+};
+
 }  // namespace vindu

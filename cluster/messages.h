@@ -86,7 +86,9 @@ struct WallMessage {
 
 /// Tracker to all; of two sources of one object the stronger is heard.
 struct PoseMessage {
-  PoseSample pose{};  ///< its covariance is symmetric: half of it travels
+  PoseSample pose{};      ///< its times are the tracker's clock's
+  Time sent_time{};       ///< the tracker's clock
+  bool followed = false;  ///< the tracker's choice: the wall shows this one's view
   std::string user_data{};
 };
 

@@ -1,6 +1,5 @@
 #include "cluster/tile_barrier.h"
 
-#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -11,16 +10,6 @@ namespace {
 constexpr Duration kMasterGone = std::chrono::seconds(2);
 
 }  // namespace
-
-void OneWayOffset::add(Time sent_by_master, Time received) {
-  differences_.push_back(received - sent_by_master);
-  if (differences_.size() > kKept) differences_.pop_front();
-}
-
-std::optional<Time> OneWayOffset::here(Time at_master) const {
-  if (differences_.empty()) return std::nullopt;
-  return at_master + *std::ranges::min_element(differences_);
-}
 
 TileBarrier::TileBarrier(std::uint64_t incarnation) : incarnation_(incarnation) {
   assert(incarnation != 0);

@@ -5,27 +5,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <utility>
 
+#include "cluster/clock_offset.h"
 #include "cluster/messages.h"
 
 namespace vindu {
-
-/// How far the master's clock is behind this machine's, from when messages were sent and received:
-/// the least difference of the last ones. It is too large by what the fastest of them took, some
-/// 0.1 ms in a wall's network, and alike on all tiles.
-class OneWayOffset {
- public:
-  void add(Time sent_by_master, Time received);
-  /// On this machine's clock. Empty before the first message.
-  std::optional<Time> here(Time at_master) const;
-
- private:
-  static constexpr std::size_t kKept = 240;  // some seconds
-  std::deque<Duration> differences_;
-};
 
 class TileBarrier {
  public:

@@ -115,6 +115,8 @@ template <class Op, class Wire, class Value>
 requires std::same_as<std::remove_const_t<Value>, PoseMessage>
 void fields(Op& op, Wire& wire, Value& message) {
   pose_fields(op, wire, message.pose);
+  op.time(wire.sent_time_ns, message.sent_time);
+  op.flag(wire.followed, message.followed);
   op.text(wire.user_data, message.user_data);
 }
 

@@ -32,7 +32,7 @@ TEST(FrameStateCdr, ComesBackBitByBit) {
 TEST(FrameStateCdr, IsPlainLittleEndianCdrBehindItsHeader) {
   const Bytes bytes = to_cdr(FrameState{.number = 0x0102});
 
-  EXPECT_EQ(bytes.size(), 4 + 8 * (2 + 3 + 4 + 3 + 2) + 1u);
+  EXPECT_EQ(bytes.size(), 4 + 8 * (2 + 3 + 4 + 3 + 2) + 4 + 1u);
   EXPECT_THAT(Bytes(bytes.begin(), bytes.begin() + 12),
               ::testing::ElementsAre(0, 1, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0));
   EXPECT_EQ(bytes.back(), static_cast<int>(Mode::track));

@@ -64,7 +64,10 @@ StatusMessage status(Random& random) {
 }
 
 PoseMessage pose(Random& random) {
-  PoseMessage message{.pose = {}, .user_data = text(random, 60)};
+  PoseMessage message{.pose = {},
+                      .sent_time = time(random),
+                      .followed = random.uniform(0, 1) < 0.5,
+                      .user_data = text(random, 60)};
   message.pose.object = static_cast<int>(random.uniform(-100, 100));
   message.pose.time = time(random);
   message.pose.capture_time = time(random);

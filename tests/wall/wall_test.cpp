@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -16,6 +17,21 @@ namespace {
 
 using namespace testing;
 using ::testing::HasSubstr;
+
+constexpr const char* kCameras = R"(
+[[camera]]
+name = "left"
+source = "emulated"
+position_m = [-1.0, 2.3, 5.0]
+look_at_m = [0, 1.65, 2.0]
+focal_px = 1335
+[[camera]]
+name = "right"
+source = "emulated"
+position_m = [1.0, 2.3, 5.0]
+look_at_m = [0, 1.65, 2.0]
+focal_px = 1335
+)";
 
 /// One swap, as --shown writes it.
 struct Swap {
@@ -63,9 +79,10 @@ class WallTest : public AppTest {
     return Child(words, path(shown + ".log"));
   }
   Child start_tile(const std::string& tile) const { return start_tiles({tile}, tile + ".csv"); }
-  Child start_master(const std::vector<std::string>& more = {}) const {
+  Child start_master(const std::vector<std::string>& more = {},
+                     const std::string& mode = "loop") const {
     std::vector<std::string> words = {VINDU_PROGRAM, "master", small_model(), "--wall", wall_file_,
-                                      "--mode",      "loop",   "--counter",   "--json"};
+                                      "--mode",      mode,     "--counter",   "--json"};
     words.insert(words.end(), more.begin(), more.end());
     return Child(words, path("master.log"));
   }
@@ -177,6 +194,28 @@ TEST_F(WallTest, DrawsSeveralTilesInOneProcess) {
   std::map<std::string, std::size_t> swaps;
   for (const Swap& swap : swaps_in(path("all.csv"))) ++swaps[swap.tile];
   EXPECT_EQ(swaps.size(), 4u);
+}
+
+// Both see the same emulated person: who is heard shows in the log alone.
+TEST_F(WallTest, FollowsTheTrackerElsewhereAndTheNextOneWhenItDies) {
+  write("wall.toml", bytes_of(wall_file_) + kCameras);
+  const auto start_tracker = [&](const char* strength) {
+    return Child({VINDU_PROGRAM, "track", "--wall", wall_file_, "--publish", "--json", "--strength",
+                  strength},
+                 path("tracker.log"));
+  };
+  Child tile = start_tile("tile-0-0");
+  Child strong = start_tracker("20"), weak = start_tracker("5");
+  Child master = start_master({"--tracker-elsewhere"}, "track");
+  await_log("poses come from a tracker elsewhere");
+  strong.send(SIGKILL);
+  await_swaps("tile-0-0.csv", 60);
+  weak.send(SIGKILL);
+  await_log("no tracker is heard any more");
+  expect_right({"tile-0-0.csv"});
+  std::set<std::string> eyes;
+  for (const Swap& swap : swaps_in(path("tile-0-0.csv"))) eyes.insert(swap.eye_x_m);
+  EXPECT_GT(eyes.size(), 30u);  // it moved
 }
 
 TEST_F(WallTest, EndsWithAnErrorWhereTheMasterCannotReadItsFirstModel) {
