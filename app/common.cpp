@@ -22,18 +22,9 @@ namespace {
 
 /// Throws CLI::ValidationError (called wrong) unless the text is three finite numbers with commas.
 Vec3 parse_vec3(const std::string& name, const std::string& text) {
-  Vec3 value;
-  const char* at = text.data();
-  const char* const end = text.data() + text.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [next, error] = std::from_chars(at, end, value[axis]);
-    const bool separated = axis == 2 ? next == end : next != end && *next == ',';
-    if (error != std::errc{} || !separated || !(std::abs(value[axis]) < 1e6))
-      throw CLI::ValidationError(
-          name, "\"" + text + "\" is not x,y,z in metres; for example " + name + " -1,0.1,2");
-    at = next + 1;
-  }
-  return value;
+  if (const auto value = vec3_from(text)) return *value;
+  throw CLI::ValidationError(
+      name, "\"" + text + "\" is not x,y,z in metres; for example " + name + " -1,0.1,2");
 }
 
 /// The show is made in the metres of the Tromsø wall; on another one it is scaled until its opening
@@ -59,6 +50,19 @@ CLI::Option* add_vec3(CLI::App& app, const std::string& name, std::optional<Vec3
       .add_option_function<std::string>(
           name, [&value, name](const std::string& text) { value = parse_vec3(name, text); }, help)
       ->type_name("X,Y,Z");
+}
+
+std::optional<Vec3> vec3_from(const std::string& text) {
+  Vec3 value;
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [next, error] = std::from_chars(at, end, value[axis]);
+    const bool separated = axis == 2 ? next == end : next != end && *next == ',';
+    if (error != std::errc{} || !separated || !(std::abs(value[axis]) < 1e6)) return std::nullopt;
+    at = next + 1;
+  }
+  return value;
 }
 
 CLI::Validator between(double least, double largest) {

@@ -21,6 +21,9 @@ namespace vindu::app {
 CLI::Option* add_vec3(CLI::App& app, const std::string& name, std::optional<Vec3>& value,
                       const std::string& help);
 
+/// Three finite numbers with commas; empty for any other text.
+std::optional<Vec3> vec3_from(const std::string& text);
+
 /// A number within both limits. CLI11's own Range lets "nan" through.
 CLI::Validator between(double least, double largest);
 

@@ -2,6 +2,7 @@
 // them together. Consoles ask it for another scene, mode or place on the running wall.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <future>
@@ -141,6 +142,8 @@ class MasterRun {
                                     Topic::command, Topic::pose};
 
   void set_mode(const std::string& mode, const std::string& path_file) {
+    if (mode != "loop" && mode != "track")
+      throw Error({"there is no mode \"" + mode + "\"", "mode", "choose track or loop"});
     if (mode == "loop") {
       eyes_ = follow_path(
           read_camera_path(path_file.empty() ? find_asset("paths/sweep.toml") : path_file));
@@ -159,7 +162,9 @@ class MasterRun {
       navigated_scene_ = wall_.shown_scene();
       if (const auto found = navigations_.find(navigated_scene_); found != navigations_.end())
         navigation_ = found->second;
+      glide_.reset();
     }
+    glide(now);
     const Time photon =
         now + figures_.to_light() + from_seconds(1e-3 * site_.viewer.display_latency_ms);
     const EyeNow eye = eyes_->at(now, photon);
@@ -250,10 +255,28 @@ class MasterRun {
         stopped_ = true;
         break;
       case Verb::go_to:
+        go_to(command.argument);
+        break;
       case Verb::blank:
-        throw Error({"is not understood", "the master", "install the newest vindu on it"});
+        throw Error({"cannot blank the wall yet", "the master", "stop it: vindu stop"});
     }
     reply(command, true, "");
+  }
+
+  /// "x,y,z" of the scene, to the middle of the wall, within a second.
+  void go_to(const std::string& argument) {
+    const auto point = vec3_from(argument);
+    if (!point) throw Error({"\"" + argument + "\" is no point", "goto", "write x,y,z"});
+    glide_ = {navigation_.wall_from_scene.translation,
+              -(navigation_.wall_from_scene.rotation * (navigation_.scale * *point)), clock_.now()};
+  }
+
+  void glide(Time now) {
+    if (!glide_) return;
+    const double share = std::clamp(seconds(now - glide_->start), 0.0, 1.0);
+    const double eased = share * share * (3 - 2 * share);
+    navigation_.wall_from_scene.translation = glide_->from + eased * (glide_->to - glide_->from);
+    if (share >= 1) glide_.reset();
   }
 
   void set_pattern(const std::string& pattern) {
@@ -274,6 +297,11 @@ class MasterRun {
   std::map<std::uint64_t, Navigation> navigations_;  // by scene
   std::uint64_t navigated_scene_ = 0;
   Navigation navigation_;
+  struct Glide {
+    Vec3 from, to;  // translation of wall_from_scene
+    Time start{};
+  };
+  std::optional<Glide> glide_;
   bool elsewhere_;
   std::uint32_t overlays_;
   bool stopped_ = false;
