@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/service.h"
 #include "app/stop_signals.h"
 #include "cluster/dds.h"
 #include "cluster/wall_tile.h"
@@ -182,7 +183,15 @@ class TileRun {
   }
 
   void run(const StopSignals& signals) {
-    while (!signals.came_within(Duration::zero()) && !surface_->close_wanted()) step();
+    tell_service_manager("READY=1");
+    while (!signals.came_within(Duration::zero()) && !surface_->close_wanted()) {
+      step();
+      // From the thread that draws: one that hangs in a driver is started anew.
+      if (const Time now = clock_.now(); now - said_alive_ > std::chrono::seconds(1)) {
+        tell_service_manager("WATCHDOG=1");
+        said_alive_ = now;
+      }
+    }
   }
 
  private:
@@ -281,7 +290,7 @@ class TileRun {
   std::uint64_t prepared_ = 0, failed_revision_ = 0;
   std::string failed_;
   bool has_scene_ = false;
-  Time noticed_{};
+  Time noticed_{}, said_alive_{};
 };
 
 int tile(const TileCommand& command) {

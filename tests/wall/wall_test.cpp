@@ -1,7 +1,10 @@
 // A wall of real processes on loopback: a master and tiles that draw. Which frame a tile showed is
 // read from its pixels. Nothing here says how long anything may take.
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -216,6 +219,27 @@ TEST_F(WallTest, FollowsTheTrackerElsewhereAndTheNextOneWhenItDies) {
   std::set<std::string> eyes;
   for (const Swap& swap : swaps_in(path("tile-0-0.csv"))) eyes.insert(swap.eye_x_m);
   EXPECT_GT(eyes.size(), 30u);  // it moved
+}
+
+TEST_F(WallTest, TellsSystemdThatATileDrawsAndThatItStillDoes) {
+  const std::string socket_file = path("notify");
+  const int listener = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  ASSERT_LT(socket_file.size(), sizeof address.sun_path);
+  std::ranges::copy(socket_file, address.sun_path);
+  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  setenv("NOTIFY_SOCKET", socket_file.c_str(), 1);
+  Child tile = start_tile("tile-0-0");
+  unsetenv("NOTIFY_SOCKET");
+  std::vector<std::string> heard;
+  while (heard.size() < 3) {
+    std::array<char, 64> text{};
+    const auto length = recv(listener, text.data(), text.size(), 0);
+    ASSERT_GT(length, 0);
+    heard.emplace_back(text.data(), static_cast<std::size_t>(length));
+  }
+  close(listener);
+  EXPECT_THAT(heard, ::testing::ElementsAre("READY=1", "WATCHDOG=1", "WATCHDOG=1"));
 }
 
 TEST_F(WallTest, EndsWithAnErrorWhereTheMasterCannotReadItsFirstModel) {
