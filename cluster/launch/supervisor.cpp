@@ -34,7 +34,7 @@ bool Supervisor::run() {
     for (const ChildEnd& end : news.ends)
       if (outcome == Outcome::running) outcome = consider(end);
     if (news.stop) outcome = Outcome::good;
-    output_.idle();
+    output_.idle(restarts());
   }
   stop();
   return outcome == Outcome::good;
@@ -114,7 +114,7 @@ void Supervisor::stop() {
     const ChildNews news = children_.wait(limit);
     print(news);
     if (news.stop) break;
-    output_.idle();
+    output_.idle(restarts());
   }
 }
 

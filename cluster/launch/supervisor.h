@@ -28,7 +28,7 @@ class Supervisor {
     std::function<void(const std::string& line)> result;  ///< the leader's standard output
     std::function<void(const std::string& name, const std::string& line)> log;
     std::function<void(const std::string& name, const std::string& line)> trouble;
-    std::function<void()> idle;  ///< called several times a second
+    std::function<void(int restarts)> idle;  ///< several times a second; of all processes
   };
 
   Supervisor(std::vector<ProcessPlan> plans, Output output, const RestartPolicy& policy = {});

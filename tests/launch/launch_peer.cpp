@@ -37,7 +37,7 @@ int launch(const std::string& program, const std::vector<std::string>& processes
   const auto result = [](const std::string& line) { say("result: " + line); };
   return run_kept([&] {
     say(fmt::format("launcher: pid {}", getpid()));
-    Supervisor supervisor(plans, {result, log, log, [] {}});
+    Supervisor supervisor(plans, {result, log, log, [](int) {}});
     const bool good = supervisor.run();
     say(fmt::format("launcher: {}, {} restarts", good ? "good" : "bad", supervisor.restarts()));
     return good ? 0 : 1;
