@@ -30,5 +30,8 @@ void add_mode(CLI::App& parent, Action& chosen);
 void add_goto(CLI::App& parent, Action& chosen);
 void add_pattern(CLI::App& parent, Action& chosen);
 void add_stop(CLI::App& parent, Action& chosen);
+void add_restart(CLI::App& parent, Action& chosen);
+void add_logs(CLI::App& parent, Action& chosen);
+void add_deploy(CLI::App& parent, Action& chosen);
 
 }  // namespace vindu::app

@@ -2,12 +2,15 @@
 // one, unless the wall file names the master's host.
 #include "app/launch.h"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "cluster/launch/words.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/resources.h"
@@ -22,6 +25,7 @@ struct LaunchCommand {
   int tiles_per_process = 1;
   bool headless = false;
   bool json = false;
+  HostOptions hosts;
 };
 
 bool has_display() {
@@ -42,12 +46,35 @@ LaunchRequest request_of(const LaunchCommand& command) {
   return request;
 }
 
+HostRequest host_request_of(const LaunchCommand& command) {
+  if (command.tiles_per_process != 1)
+    throw Error({"the tiles of a host share one process", "--tiles-per-process",
+                 "leave it out where the wall file names the master's host"});
+  HostRequest request{.model = std::filesystem::path(command.model).filename(),
+                      .master_arguments = command.master_options,
+                      .tile_arguments = command.tile_options,
+                      .headless = command.headless};
+  if (command.json) request.master_arguments.emplace_back("--json");
+  return request;
+}
+
+/// What would run on this machine, a line each.
+int print_plans(const LaunchCommand& command, const Site& site) {
+  for (const ProcessPlan& plan :
+       local_wall(request_of(command), site.wall, command.tiles_per_process))
+    fmt::print("{}\n", shell_words(plan.words));
+  return 0;
+}
+
 int launch(LaunchCommand command) {
   const Site site = load_site(command.wall_file);
+  if (has_hosts(site))
+    return launch_on_hosts(host_request_of(command), site, command.wall_file, command.hosts);
   if (!command.headless && !has_display()) {
     log_info("launch", "there is no display here: the tiles draw without one (--headless)");
     command.headless = true;
   }
+  if (command.hosts.dry_run) return print_plans(command, site);
   return launch_here(request_of(command), site, command.tiles_per_process);
 }
 
@@ -94,8 +121,12 @@ void add_launch(CLI::App& parent, Action& chosen) {
       ->check(CLI::Range(1, 1024));
   app->add_flag("--headless", command->headless, "Tiles draw without a display");
   app->add_flag("--json", command->json, "The master's figures as JSON");
+  app->add_flag("--dry-run", command->hosts.dry_run, "Only say what would be done");
+  add_engine(*app, command->hosts.engine);
   add_handed_on(*app, *command);
   app->footer(
+      "\nThe processes are children of this one, unless the wall file's [cluster] names the\n"
+      "master: then they are started on its hosts, which keep them running, and this one ends.\n"
       "\nExamples:\n"
       "  vindu launch --headless --scale 0.1 --seconds 10\n"
       "  vindu launch model.glb --wall wall.toml\n");

@@ -61,6 +61,9 @@ int run(int argc, char** argv) {
   vindu::app::add_goto(app, chosen);
   vindu::app::add_pattern(app, chosen);
   vindu::app::add_stop(app, chosen);
+  vindu::app::add_restart(app, chosen);
+  vindu::app::add_logs(app, chosen);
+  vindu::app::add_deploy(app, chosen);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

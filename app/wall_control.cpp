@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/launch.h"
 #include "app/wall_console.h"
 #include "cluster/console.h"
 #include "cluster/dds.h"
@@ -18,6 +19,7 @@ namespace {
 struct ControlCommand {
   std::string wall_file;
   std::string argument;
+  std::string engine = "systemd";
   double timeout_s = 5;
 };
 
@@ -105,6 +107,7 @@ void add_stop(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<ControlCommand>();
   CLI::App* app = parent.add_subcommand("stop", "Ends a running wall");
   add_common(*app, *command);
+  add_engine(*app, command->engine);
   app->footer("\nExamples:\n  vindu stop\n  vindu stop --wall wall.toml\n");
   app->callback(
       [command, &chosen] { chosen = [command] { return ask(*command, Verb::stop, ""); }; });
