@@ -14,7 +14,6 @@
 #include <fstream>
 #include <utility>
 
-#include "cluster/launch/keeper.h"
 #include "core/error.h"
 
 namespace vindu {
@@ -109,7 +108,6 @@ ChildProcesses::ChildProcesses() {
   sigemptyset(&signals);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&signals, signal);
   pthread_sigmask(SIG_BLOCK, &signals, &before_);
-  become_reaper();
   signals_ = FileDescriptor(signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC));
   if (!signals_.open()) refuse("the system gives no signalfd");
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cluster/launch/keeper.h"
 #include "core/clock.h"
 
 namespace vindu {
@@ -85,6 +86,7 @@ class ChildProcesses {
   void kill_strays() const;
 
   std::map<pid_t, Child> children_;
+  Reaper reaper_;
   sigset_t before_{};
   FileDescriptor signals_;
 };

@@ -74,9 +74,11 @@ std::map<std::string, ProgramResult> listen(ChildProcesses& children) {
   while (!children.empty()) {
     ChildNews news = children.wait(std::chrono::steady_clock::now() + std::chrono::seconds(1));
     if (news.stop) throw Error({"was stopped", "", ""});
-    for (ChildLine& line : news.lines)
-      (line.result ? results[line.name].out : results[line.name].err)
-          .push_back(std::move(line.text));
+    for (ChildLine& line : news.lines) {
+      auto& lines = line.result ? results[line.name].out : results[line.name].err;
+      if (line.text.ends_with('\r')) line.text.pop_back();  // as ssh has them
+      lines.push_back(std::move(line.text));
+    }
     for (const ChildEnd& end : news.ends)
       results[end.name].exit_code = end.signal ? 128 + end.signal : end.exit_code;
   }

@@ -45,7 +45,11 @@ int wait_for(pid_t child, const sigset_t& signals) {
 
 }  // namespace
 
-void become_reaper() { prctl(PR_SET_CHILD_SUBREAPER, 1); }
+Reaper::Reaper() {
+  prctl(PR_GET_CHILD_SUBREAPER, &before_);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+Reaper::~Reaper() { prctl(PR_SET_CHILD_SUBREAPER, before_); }
 
 bool die_with(int parent, int signal) {
   prctl(PR_SET_PDEATHSIG, signal);
@@ -67,7 +71,7 @@ int run_kept(const std::function<int()>& work) {
   sigemptyset(&signals);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&signals, signal);
   pthread_sigmask(SIG_BLOCK, &signals, &before);
-  become_reaper();
+  const Reaper reaper;
   std::fflush(nullptr);  // what is buffered is printed once
   const pid_t self = getpid();
   const pid_t child = fork();
@@ -76,7 +80,7 @@ int run_kept(const std::function<int()>& work) {
                  "end other programs, or raise the limit (ulimit -u)"});
   if (child == 0) {
     setpgid(0, 0);
-    become_reaper();
+    const Reaper own;
     if (!die_with(self, SIGTERM)) return 1;
     return work();
   }

@@ -7,12 +7,21 @@
 
 namespace vindu {
 
-/// Kills the children of this process, and those that they leave to it, until there is none. Needs
-/// become_reaper() before they were started.
-void kill_descendants();
+/// As long as it lives, processes below this one whose parents died become children of this one.
+class Reaper {
+ public:
+  Reaper();
+  ~Reaper();
+  Reaper(const Reaper&) = delete;
+  Reaper& operator=(const Reaper&) = delete;
 
-/// Processes below this one whose parents died become children of this one.
-void become_reaper();
+ private:
+  int before_ = 0;
+};
+
+/// Kills the children of this process, and those that they leave to it, until there is none. Needs
+/// a Reaper from before they were started.
+void kill_descendants();
 
 /// Has the kernel send this process a signal when `parent`, its parent, dies. False if that has
 /// happened already.
