@@ -105,7 +105,7 @@ void fill(Stage& stage, const HostsCommand& command, const Site& site) {
 /// After the copy: every file is what it is here.
 std::string check_script(const std::string& manifest_sha256) {
   return "fail() { printf '@fail\\t%s\\t%s\\t%s\\n' \"$1\" \"$2\" \"$3\"; exit 1; }\n"
-         "cd \"$HOME/vindu\" || fail check 'there is no ~/vindu' ''\n"
+         "cd \"$HOME/.vindu\" || fail check 'there is no ~/.vindu' ''\n"
          "printf '%s  MANIFEST\\n' " +
          shell_word(manifest_sha256) +
          " | sha256sum --check --status || fail check 'its list of files is another one' "
@@ -174,7 +174,7 @@ void add_deploy(CLI::App& parent, Action& chosen) {
   app->add_option("--host", command->hosts, "A host or tile (default: all; more than once)");
   app->add_flag("--dry-run", command->dry_run, "Only say what would be done");
   app->footer(
-      "\nIt lands in ~/vindu of each host, and is compared by SHA-256 afterwards.\n"
+      "\nIt lands in ~/.vindu of each host, and is compared by SHA-256 afterwards.\n"
       "\nExamples:\n"
       "  vindu deploy --wall wall.toml\n"
       "  vindu deploy model.glb --wall wall.toml --host tile-3-0\n");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "app/launch.h"
 #include "cluster/launch/node_set.h"
@@ -44,10 +43,8 @@ std::vector<std::string> sbatch_words(const Site& site, const std::vector<std::s
 
 int launch_by_slurm(const HostRequest& request, const Site& site) {
   const auto hosts = host_plans(site);
-  const auto file = std::filesystem::temp_directory_path() / (job_of(site) + ".sh");
-  std::ofstream(file) << slurm_script(hosts, request);
   auto words = sbatch_words(site, names_of(hosts));
-  words.push_back(file);
+  words.insert(words.end(), {"--wrap", slurm_script(hosts, request)});
   fmt::print("job {}: {} hosts; its lines: {}.log\n", ask_slurm(words), hosts.size(), job_of(site));
   return 0;
 }
@@ -55,8 +52,8 @@ int launch_by_slurm(const HostRequest& request, const Site& site) {
 void print_plan(const HostRequest& request, const Site& site, const HostOptions& options) {
   const auto hosts = host_plans(site);
   if (options.engine == "slurm") {
-    fmt::print("# {} FILE, with this FILE:\n{}", shell_words(sbatch_words(site, names_of(hosts))),
-               slurm_script(hosts, request));
+    fmt::print("# {} --wrap SCRIPT, with this script:\n{}",
+               shell_words(sbatch_words(site, names_of(hosts))), slurm_script(hosts, request));
     return;
   }
   const std::string script = start_script(hosts, request);

@@ -2,15 +2,9 @@
 
 #include <unistd.h>
 
-#include <array>
+#include "app/common.h"
 
 namespace vindu::app {
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
 
 Participant this_console() {
   return {.role = Role::console,

@@ -8,8 +8,6 @@
 
 namespace vindu::app {
 
-std::string host_name();
-
 /// A console with a name that no other has.
 Participant this_console();
 

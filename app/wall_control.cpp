@@ -109,8 +109,13 @@ void add_stop(CLI::App& parent, Action& chosen) {
   add_common(*app, *command);
   add_engine(*app, command->engine);
   app->footer("\nExamples:\n  vindu stop\n  vindu stop --wall wall.toml\n");
-  app->callback(
-      [command, &chosen] { chosen = [command] { return ask(*command, Verb::stop, ""); }; });
+  app->callback([command, &chosen] {
+    chosen = [command] {
+      const Site site = load_site(command->wall_file);
+      if (has_hosts(site)) return stop_on_hosts(site, command->engine);
+      return ask(*command, Verb::stop, "");
+    };
+  });
 }
 
 }  // namespace vindu::app

@@ -37,7 +37,7 @@ std::string unit_words(const std::vector<std::string>& words) {
 }
 
 std::string model_word(const HostRequest& request) {
-  return request.model.empty() ? "" : " " + unit_word(request.model, "%h/vindu/scene/");
+  return request.model.empty() ? "" : " " + unit_word(request.model, "%h/.vindu/scene/");
 }
 
 /// In a here-document, which no line of a unit can end: all begin otherwise.
@@ -70,15 +70,15 @@ session=$(systemctl --user show-environment 2>&1) || fail systemd \
   'log the user in at its screen (auto-login); without a screen: loginctl enable-linger'
 )sh";
 
-constexpr const char* kCheckFiles = R"sh(vindu=$HOME/vindu/bin/vindu
+constexpr const char* kCheckFiles = R"sh(vindu=$HOME/.vindu/bin/vindu
 [ -x "$vindu" ] || fail files 'there is no vindu' 'bring it: vindu deploy'
 said=$("$vindu" --version 2>&1) || fail program "$said" \
   'install the packages that Vindu runs with (README)'
 printf '%s  %s\n' "$program_sha256" "$vindu" | sha256sum --check --status ||
   fail files "its vindu ($said) is not this one" 'bring it: vindu deploy'
-printf '%s  %s\n' "$wall_sha256" "$HOME/vindu/wall.toml" | sha256sum --check --status ||
+printf '%s  %s\n' "$wall_sha256" "$HOME/.vindu/wall.toml" | sha256sum --check --status ||
   fail files 'its wall file is not this one' 'bring it: vindu deploy'
-[ -z "$model" ] || [ -e "$HOME/vindu/scene/$model" ] ||
+[ -z "$model" ] || [ -e "$HOME/.vindu/scene/$model" ] ||
   fail files "there is no scene/$model" 'bring it: vindu deploy MODEL'
 )sh";
 
@@ -144,7 +144,7 @@ StartLimitBurst=20
 Type=notify
 )sh";
   if (!request.headless) text += "ExecStartPre=-xset s off s noblank\nExecStartPre=-xset -dpms\n";
-  text += "ExecStart=%h/vindu/bin/vindu tile $TILES --wall %h/vindu/wall.toml" +
+  text += "ExecStart=%h/.vindu/bin/vindu tile $TILES --wall %h/.vindu/wall.toml" +
           std::string(request.headless ? " --headless" : "") + unit_words(request.tile_arguments);
   return text + R"sh(
 Restart=on-failure
@@ -164,8 +164,9 @@ StartLimitBurst=20
 
 [Service]
 Type=exec
-ExecStart=%h/vindu/bin/vindu master)sh" +
-         model_word(request) + " --wall %h/vindu/wall.toml" + unit_words(request.master_arguments) +
+ExecStart=%h/.vindu/bin/vindu master)sh" +
+         model_word(request) + " --wall %h/.vindu/wall.toml" +
+         unit_words(request.master_arguments) +
          R"sh(
 Restart=on-failure
 RestartSec=200ms
@@ -222,18 +223,18 @@ std::string slurm_script(const std::vector<HostPlan>& hosts, const HostRequest& 
                     shell_word(fmt::format("{}", fmt::join(plan.tiles, " "))), plan.master ? 1 : 0);
   step += R"sh(esac
 run() { until "$@"; do [ $? -ne 2 ] || return 2; sleep 0.2; done; }
-vindu=$HOME/vindu/bin/vindu wall=$HOME/vindu/wall.toml
+vindu=$HOME/.vindu/bin/vindu wall=$HOME/.vindu/wall.toml
 )sh";
   if (!request.headless) step += "export DISPLAY=\"${DISPLAY:-:0}\"\n";
   const std::string model =
-      request.model.empty() ? "" : " \"$HOME/vindu/scene/\"" + shell_word(request.model);
+      request.model.empty() ? "" : " \"$HOME/.vindu/scene/\"" + shell_word(request.model);
   step += "[ \"$master\" = 0 ] || run \"$vindu\" master" + model + " --wall \"$wall\" " +
           shell_words(request.master_arguments) + " &\n";
   step += "[ -z \"$tiles\" ] || run \"$vindu\" tile $tiles --wall \"$wall\" " +
           std::string(request.headless ? "--headless " : "") + shell_words(request.tile_arguments) +
           " &\n";
-  return "#!/bin/sh\nexec srun --label --no-kill --kill-on-bad-exit=0 sh -c " +
-         shell_word(step + "wait\n") + "\n";
+  return "exec srun --label --no-kill --kill-on-bad-exit=0 sh -c " + shell_word(step + "wait\n") +
+         "\n";
 }
 
 }  // namespace vindu

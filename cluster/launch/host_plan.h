@@ -1,5 +1,5 @@
 // The wall over hosts: which host has which tiles, and the texts that make systemd or Slurm run
-// them there. A host keeps its files in ~/vindu: bin/vindu, share/vindu, wall.toml, scene/.
+// them there. A host keeps its files in ~/.vindu: bin/vindu, share/vindu, wall.toml, scene/.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ std::vector<std::string> names_of(const std::vector<HostPlan>& hosts);
 /// What the hosts are to run. Arguments are those of vindu master and vindu tile besides --wall and
 /// tiles.
 struct HostRequest {
-  std::string model{};  ///< a file's name in ~/vindu/scene; empty: the wall file's, or the show
+  std::string model{};  ///< a file's name in ~/.vindu/scene; empty: the wall file's, or the show
   std::vector<std::string> master_arguments{};
   std::vector<std::string> tile_arguments{};
   bool headless = false;
@@ -48,7 +48,7 @@ std::string stop_script();
 std::string restart_script();
 std::string log_script(int lines);
 
-/// For sbatch: one step over all hosts, each starting again what dies.
+/// For sbatch --wrap: one step over all hosts, each starting again what dies.
 std::string slurm_script(const std::vector<HostPlan>& hosts, const HostRequest& request);
 
 }  // namespace vindu

@@ -118,9 +118,10 @@ std::vector<HostReport> reports_from(const std::vector<std::string>& hosts,
 }
 
 std::vector<std::string> rsync_words(const std::string& host, const std::string& folder) {
-  return {"rsync",    "--recursive", "--copy-links",  "--perms", "--times",
-          "--delete", "--compress",  "--mkpath",      "--rsh",   std::string("ssh ") + kSshOptions,
-          "--",       folder + "/",  host + ":vindu/"};
+  return {"rsync",    "--recursive", "--copy-links",
+          "--perms",  "--times",     "--compress",
+          "--mkpath", "--rsh",       std::string("ssh ") + kSshOptions,
+          "--",       folder + "/",  host + ":.vindu/"};
 }
 
 std::vector<HostReport> copy_to_hosts(const std::vector<std::string>& hosts,

@@ -44,8 +44,8 @@ std::vector<HostReport> on_hosts(const std::vector<std::string>& hosts, const st
 std::vector<HostReport> reports_from(const std::vector<std::string>& hosts,
                                      const ProgramResult& clush);
 
-/// Copies a folder's content to ~/vindu of each host by rsync over ssh, all at once; links are
-/// followed, and what the folder does not have is removed there.
+/// Copies a folder's content to ~/.vindu of each host by rsync over ssh, all at once; links are
+/// followed, and other files there stay.
 std::vector<HostReport> copy_to_hosts(const std::vector<std::string>& hosts,
                                       const std::string& folder);
 std::vector<std::string> rsync_words(const std::string& host, const std::string& folder);

@@ -114,7 +114,6 @@ void Supervisor::stop() {
     const ChildNews news = children_.wait(limit);
     print(news);
     if (news.stop) break;
-    output_.idle(restarts());
   }
 }
 

@@ -36,7 +36,9 @@ TEST_P(Commands, RefuseAnUnknownOption) {
 }
 
 INSTANTIATE_TEST_SUITE_P(CommandLine, Commands,
-                         ::testing::Values("view", "render", "simulate", "check"),
+                         ::testing::Values("view", "render", "simulate", "check", "launch",
+                                           "status", "show", "mode", "goto", "pattern", "stop",
+                                           "restart", "logs", "deploy"),
                          [](const auto& tested) { return tested.param; });
 
 TEST_F(CommandLine, TellsTheVersion) {

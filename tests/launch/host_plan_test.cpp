@@ -66,8 +66,8 @@ TEST(Units, OfTilesAreWatchedRestartedAndOfTheSession) {
                           HasSubstr("\nRestartSec=200ms\n"), HasSubstr("\nWatchdogSec=10\n"),
                           HasSubstr("\nStartLimitBurst="),
                           HasSubstr("\nPartOf=graphical-session.target\n")));
-  EXPECT_THAT(unit, HasSubstr("\nExecStart=%h/vindu/bin/vindu tile $TILES --wall "
-                              "%h/vindu/wall.toml \"--scale\" \"0.5\"\n"));
+  EXPECT_THAT(unit, HasSubstr("\nExecStart=%h/.vindu/bin/vindu tile $TILES --wall "
+                              "%h/.vindu/wall.toml \"--scale\" \"0.5\"\n"));
   EXPECT_THAT(unit, HasSubstr("xset"));
 }
 
@@ -79,8 +79,8 @@ TEST(Units, OfHeadlessTilesTouchNoScreen) {
 
 TEST(Units, OfTheMasterNameTheModelThatWasDeployed) {
   EXPECT_THAT(master_unit(request()),
-              HasSubstr("\nExecStart=%h/vindu/bin/vindu master \"%h/vindu/scene/my \\\"model\\\" "
-                        "100%%.glb\" --wall %h/vindu/wall.toml \"--mode\" \"loop\"\n"));
+              HasSubstr("\nExecStart=%h/.vindu/bin/vindu master \"%h/.vindu/scene/my \\\"model\\\" "
+                        "100%%.glb\" --wall %h/.vindu/wall.toml \"--mode\" \"loop\"\n"));
 }
 
 TEST(Scripts, AreGoodShell) {
@@ -99,14 +99,13 @@ TEST(Slurm, RunsOnEachHostWhatIsItsOwnWithTheArgumentsAsTheyAre) {
   nasty.tile_arguments = {"$(id)", "it's"};
   const std::string script = slurm_script(host_plans(site_of("tile-{x}-{y}")), nasty);
   // srun and vindu stand-ins: one runs the step here, the other prints its words.
-  const std::string stand_ins = R"(home=$(mktemp -d); mkdir -p "$home/vindu/bin"
+  const std::string stand_ins = R"(home=$(mktemp -d); mkdir -p "$home/.vindu/bin"
 printf '#!/bin/sh\nshift 3; exec "$@"\n' > "$home/srun"
-printf '#!/bin/sh\nprintf "<%%s>" "$@"\n' > "$home/vindu/bin/vindu"
-chmod +x "$home/srun" "$home/vindu/bin/vindu"
+printf '#!/bin/sh\nprintf "<%%s>" "$@"\n' > "$home/.vindu/bin/vindu"
+chmod +x "$home/srun" "$home/.vindu/bin/vindu"
 export HOME="$home" PATH="$home:$PATH" SLURMD_NODENAME=tile-1-0
 )";
-  const ProgramResult result =
-      run_program({"sh", "-c", stand_ins + script.substr(script.find('\n'))});
+  const ProgramResult result = run_program({"sh", "-c", stand_ins + script});
   ASSERT_THAT(result.out, SizeIs(1)) << ::testing::PrintToString(result.err);
   EXPECT_THAT(result.out[0],
               AllOf(HasSubstr("<tile><tile-1-0><--wall>"), HasSubstr("<--headless><$(id)><it's>")));

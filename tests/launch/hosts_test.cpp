@@ -59,7 +59,7 @@ TEST(CommandLines, NameHostsFoldedAndAskNothing) {
   const auto words = clush_words({"tile-0-0", "tile-1-0"}, "echo @done");
   EXPECT_THAT(words, ::testing::Contains("tile-[0-1]-0"));
   EXPECT_THAT(words, ::testing::Contains(HasSubstr("BatchMode=yes")));
-  EXPECT_EQ(rsync_words("tile-0-0", "/tmp/a b").back(), "tile-0-0:vindu/");
+  EXPECT_EQ(rsync_words("tile-0-0", "/tmp/a b").back(), "tile-0-0:.vindu/");
   EXPECT_EQ(rsync_words("tile-0-0", "/tmp/a b")[rsync_words("tile-0-0", "/tmp/a b").size() - 2],
             "/tmp/a b/");
 }

@@ -95,9 +95,9 @@ TEST_F(WallHosts, RunWhatTheyAreToldUntilTheyAreStopped) {
 
   ASSERT_THAT(ask("start"), IsEmpty());
 
-  const std::string wall = "/root/vindu/wall.toml";
+  const std::string wall = "/root/.vindu/wall.toml";
   EXPECT_THAT(arguments("head", "master"),
-              ElementsAre(std::string("/root/vindu/scene/") + kModel, "--wall", wall, "--mode",
+              ElementsAre(std::string("/root/.vindu/scene/") + kModel, "--wall", wall, "--mode",
                           "%h $TILES `id` \\ 'x'; touch /root/hacked", "DISPLAY="));
   EXPECT_THAT(arguments("tile-1-0", "tile"),
               ElementsAre("tile-1-0", "--wall", wall, "$(touch /root/hacked)", "DISPLAY=:7"));
@@ -121,13 +121,42 @@ TEST_F(WallHosts, ThatCannotSayWhyAndTheOthersGoOn) {
 
   EXPECT_THAT(said("head", "master"), ::testing::Not(IsEmpty()));
   EXPECT_THAT(said("tile-0-0", "tile"), ::testing::Not(IsEmpty()));
-  std::ofstream(home("tile-0-0") / "vindu/wall.toml") << "another wall\n";
-  fs::remove(home("tile-1-0") / "vindu/bin/vindu");
+  std::ofstream(home("tile-0-0") / ".vindu/wall.toml") << "another wall\n";
+  fs::remove(home("tile-1-0") / ".vindu/bin/vindu");
   EXPECT_THAT(ask("start"),
               ElementsAre("tile-0-0: files: its wall file is not this one; bring it: vindu deploy",
                           "tile-1-0: files: there is no vindu; bring it: vindu deploy"));
   EXPECT_THAT(ask("stop", {"head", "tile-0-0", "nowhere"}),
               ElementsAre(HasSubstr("nowhere: ssh: ssh: Could not resolve")));
+}
+
+TEST_F(WallHosts, AreDeployedToByTheProgramItself) {
+  if (!made_) GTEST_SKIP() << "no namespaces or no systemd here";
+  fs::create_directories(stage() / "site/models");
+  const std::string wall = stage() / "site/wall.toml";
+  std::ofstream(wall) << "[wall]\ncolumns = 2\nrows = 1\nwidth_m = 1\nheight_m = 0.4\n"
+                         "tile_width_px = 64\ntile_height_px = 48\n"
+                         "[cluster]\nmaster = \"head\"\n[scene]\nmodel = \"models/a.obj\"\n";
+  std::ofstream(stage() / "site/models/a.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(stage() / "site/models/a.mtl") << "newmtl a\n";
+  const std::string model = stage() / "scene" / "it's $HOME.glb";
+  std::ofstream(model) << "a model\n";
+
+  const auto deployed = on_head({VINDU_PROGRAM, "deploy", model, "--wall", wall});
+
+  EXPECT_THAT(deployed.out, ElementsAre("3 of 3 hosts have it"))
+      << ::testing::PrintToString(deployed.err);
+  const fs::path there = home("tile-1-0") / ".vindu";
+  for (const std::string file : {"bin/vindu", "wall.toml", "models/a.obj", "models/a.mtl",
+                                 "scene/it's $HOME.glb", "share/vindu/shaders"})
+    EXPECT_TRUE(fs::exists(there / file)) << file;
+  const auto stopped = on_head({VINDU_PROGRAM, "stop", "--wall", wall});
+  EXPECT_THAT(stopped.out, ElementsAre("3 of 3 hosts stopped"));
+  const auto restarted = on_head({VINDU_PROGRAM, "restart", "tile-1-0", "--wall", wall});
+  EXPECT_THAT(restarted.out, ElementsAre("0 of 1 hosts restarted"));
+  EXPECT_THAT(restarted.err,
+              ElementsAre("tile-1-0: units: nothing was launched there; vindu launch"));
+  EXPECT_EQ(restarted.exit_code, 1);
 }
 
 }  // namespace
