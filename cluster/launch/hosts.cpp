@@ -36,9 +36,10 @@ std::string ssh_remedy(const std::string& reason) {
 
 /// A host that never said how it went.
 HostFailure silence(const HostReport& report, const std::vector<std::string>& errors) {
-  const std::string reason = !errors.empty()        ? errors.back()
-                             : report.lines.empty() ? "the connection ended"
-                                                    : report.lines.back();
+  std::string reason = !errors.empty()        ? errors.back()
+                       : report.lines.empty() ? "the connection ended"
+                                              : report.lines.back();
+  if (reason.starts_with("ssh: ")) reason.erase(0, 5);
   return {"ssh", reason, ssh_remedy(reason)};
 }
 

@@ -127,7 +127,7 @@ TEST_F(WallHosts, ThatCannotSayWhyAndTheOthersGoOn) {
               ElementsAre("tile-0-0: files: its wall file is not this one; bring it: vindu deploy",
                           "tile-1-0: files: there is no vindu; bring it: vindu deploy"));
   EXPECT_THAT(ask("stop", {"head", "tile-0-0", "nowhere"}),
-              ElementsAre(HasSubstr("nowhere: ssh: ssh: Could not resolve")));
+              ElementsAre(HasSubstr("nowhere: ssh: Could not resolve")));
 }
 
 TEST_F(WallHosts, AreDeployedToByTheProgramItself) {
