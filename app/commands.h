@@ -23,5 +23,15 @@ void add_replay(CLI::App& parent, Action& chosen);
 void add_track(CLI::App& parent, Action& chosen);
 void add_plan(CLI::App& parent, Action& chosen);
 void add_measure(CLI::App& parent, Action& chosen);
+void add_launch(CLI::App& parent, Action& chosen);
+void add_status(CLI::App& parent, Action& chosen);
+void add_show(CLI::App& parent, Action& chosen);
+void add_mode(CLI::App& parent, Action& chosen);
+void add_goto(CLI::App& parent, Action& chosen);
+void add_pattern(CLI::App& parent, Action& chosen);
+void add_stop(CLI::App& parent, Action& chosen);
+void add_restart(CLI::App& parent, Action& chosen);
+void add_logs(CLI::App& parent, Action& chosen);
+void add_deploy(CLI::App& parent, Action& chosen);
 
 }  // namespace vindu::app

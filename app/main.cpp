@@ -54,6 +54,16 @@ int run(int argc, char** argv) {
   vindu::app::add_track(app, chosen);
   vindu::app::add_plan(app, chosen);
   vindu::app::add_measure(app, chosen);
+  vindu::app::add_launch(app, chosen);
+  vindu::app::add_status(app, chosen);
+  vindu::app::add_show(app, chosen);
+  vindu::app::add_mode(app, chosen);
+  vindu::app::add_goto(app, chosen);
+  vindu::app::add_pattern(app, chosen);
+  vindu::app::add_stop(app, chosen);
+  vindu::app::add_restart(app, chosen);
+  vindu::app::add_logs(app, chosen);
+  vindu::app::add_deploy(app, chosen);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

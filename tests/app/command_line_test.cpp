@@ -28,16 +28,27 @@ TEST_P(Commands, AreNamedInTheProgramsHelp) {
   EXPECT_THAT(result.out, HasSubstr("\n  " + GetParam()));
 }
 
-TEST_P(Commands, RefuseAnUnknownOption) {
+/// Those that need no further word.
+class CommandsAlone : public Commands {};
+
+TEST_P(CommandsAlone, RefuseAnUnknownOption) {
   const ProcessResult result = vindu({GetParam(), "--no-such-option"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("--no-such-option"));
   EXPECT_THAT(result.out, IsEmpty());
 }
 
+const auto name_of_command = [](const auto& tested) { return tested.param; };
+
+INSTANTIATE_TEST_SUITE_P(CommandLine, CommandsAlone,
+                         ::testing::Values("view", "render", "simulate", "check", "launch",
+                                           "status", "stop"),
+                         name_of_command);
 INSTANTIATE_TEST_SUITE_P(CommandLine, Commands,
-                         ::testing::Values("view", "render", "simulate", "check"),
-                         [](const auto& tested) { return tested.param; });
+                         ::testing::Values("view", "render", "simulate", "check", "launch",
+                                           "status", "show", "mode", "goto", "pattern", "stop",
+                                           "restart", "logs", "deploy"),
+                         name_of_command);
 
 TEST_F(CommandLine, TellsTheVersion) {
   const ProcessResult result = vindu({"--version"});

@@ -1,0 +1,97 @@
+// vindu status: what a running wall does, asked of nobody: heard on the bus, as every console may.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/stop_signals.h"
+#include "app/wall_console.h"
+#include "cluster/dds.h"
+#include "cluster/wall_view.h"
+
+namespace vindu::app {
+namespace {
+
+struct StatusCommand {
+  std::string wall_file;
+  bool json = false;
+  bool watch = false;
+};
+
+/// Long enough for all to be found, and for a tile that hangs to be called silent.
+constexpr auto kListen = std::chrono::milliseconds(1500);
+constexpr auto kTurn = std::chrono::milliseconds(50);
+
+std::string json_of(const TileNow& tile) {
+  const StatusMessage& last = tile.last;
+  return fmt::format(
+      R"({{"tile": {}, "host": {}, "state": {}, "frame": {}, "fps": {:.2f}, "late_frames": {}, )"
+      R"("restarts": {}, "scene": {}, "renderer": {}, "version": {}, "error": {}}})",
+      json_text(tile.name), json_text(last.host), json_text(tile.state), last.presented,
+      last.frames_per_s, last.late_frames, tile.restarts, last.scene_revision,
+      json_text(last.renderer), json_text(last.version), json_text(last.error));
+}
+
+/// One line.
+std::string json_of(const WallNow& wall) {
+  std::string tiles, trackers;
+  for (const TileNow& tile : wall.tiles) tiles += (tiles.empty() ? "" : ", ") + json_of(tile);
+  for (const std::string& name : wall.trackers)
+    trackers += (trackers.empty() ? "" : ", ") + json_text(name);
+  return fmt::format(R"({{"good": {}, "master": {}, "epoch": {}, "frame": {}, "fps": {:.2f}, )"
+                     R"("active_tiles": {}, "trackers": [{}], "tiles": [{}]}})",
+                     wall.good(), wall.master ? json_text(wall.master->host) : "null", wall.epoch,
+                     wall.frame, wall.frames_per_s, wall.active_tiles, trackers, tiles);
+}
+
+void print(const StatusCommand& command, const WallNow& wall) {
+  if (command.json) {
+    fmt::print("{}\n", json_of(wall));
+  } else {
+    const bool rewrites = command.watch && isatty(STDOUT_FILENO) == 1;
+    fmt::print("{}{}", rewrites ? "\x1b[H\x1b[J" : "", table_of(wall));
+  }
+  std::fflush(stdout);
+}
+
+int status(const StatusCommand& command) {
+  const Site site = load_site(command.wall_file);
+  const StopSignals signals;
+  DdsTransport transport(dds_settings_of(site.cluster));
+  const Participant self = this_console();
+  const auto bus = transport.join({self, {}, WallView::hears()});
+  WallView view(tile_names(site.wall), self);
+  const MonotonicClock clock;
+  for (Time shown = clock.now(); !signals.came_within(Duration::zero());) {
+    bus->wait(WallView::hears(), clock.now() + kTurn);
+    view.poll(*bus, clock.now());
+    if (clock.now() - shown < kListen) continue;
+    print(command, view.now());
+    shown = clock.now();
+    if (!command.watch) break;
+  }
+  return view.now().good() ? 0 : 1;
+}
+
+}  // namespace
+
+void add_status(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<StatusCommand>();
+  CLI::App* app =
+      parent.add_subcommand("status", "What a running wall does, and what is missing of it");
+  app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
+      ->type_name("FILE");
+  app->add_flag("--json", command->json, "A line of JSON, with every tile");
+  app->add_flag("--watch", command->watch, "Again and again, until Ctrl-C");
+  app->footer(
+      "\nExit code: 0 when there is a master and every tile is ready, else 1.\n"
+      "\nExamples:\n"
+      "  vindu status --wall wall.toml\n"
+      "  vindu status --watch\n");
+  app->callback([command, &chosen] { chosen = [command] { return status(*command); }; });
+}
+
+}  // namespace vindu::app

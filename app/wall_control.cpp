@@ -1,0 +1,121 @@
+// vindu show, mode, goto, pattern, stop: asked of the master of a running wall, which says whether
+// it did.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/launch.h"
+#include "app/wall_console.h"
+#include "cluster/console.h"
+#include "cluster/dds.h"
+
+namespace vindu::app {
+namespace {
+
+struct ControlCommand {
+  std::string wall_file;
+  std::string argument;
+  std::string engine = "systemd";
+  double timeout_s = 5;
+};
+
+int ask(const ControlCommand& command, Verb verb, const std::string& argument) {
+  const Site site = load_site(command.wall_file);
+  DdsTransport transport(dds_settings_of(site.cluster));
+  const AnswerMessage answer =
+      ask_wall(transport, this_console(), {verb, argument}, from_seconds(command.timeout_s));
+  expect_done(answer);
+  if (!answer.text.empty()) fmt::print("{}\n", answer.text);
+  return 0;
+}
+
+void add_common(CLI::App& app, ControlCommand& command) {
+  app.add_option("--wall", command.wall_file, "Wall file (default: the 7x4 Tromsø wall)")
+      ->type_name("FILE");
+  app.add_option("--timeout", command.timeout_s, "Seconds to wait for the answer")
+      ->check(between(0.1, 3600.0))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_show(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ControlCommand>();
+  command->timeout_s = 60;  // the master reads it first
+  CLI::App* app = parent.add_subcommand("show", "Shows another model on a running wall");
+  app->add_option("MODEL", command->argument,
+                  "Any model that Assimp reads, at this path on all hosts")
+      ->required();
+  add_common(*app, *command);
+  app->footer("\nExamples:\n  vindu show model.glb\n  vindu show scan.ply --wall wall.toml\n");
+  app->callback([command, &chosen] {
+    chosen = [command] {
+      return ask(*command, Verb::show, std::filesystem::absolute(command->argument));
+    };
+  });
+}
+
+void add_mode(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ControlCommand>();
+  CLI::App* app = parent.add_subcommand("mode", "How the eye moves on a running wall");
+  app->add_option(
+         "MODE", command->argument,
+         "track: the eye is tracked; loop: it follows a path; touch: fingers move the scene")
+      ->required()
+      ->check(CLI::IsMember({"track", "loop", "touch"}));
+  add_common(*app, *command);
+  app->footer("\nExamples:\n  vindu mode loop\n  vindu mode track --wall wall.toml\n");
+  app->callback([command, &chosen] {
+    chosen = [command] { return ask(*command, Verb::mode, command->argument); };
+  });
+}
+
+void add_goto(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ControlCommand>();
+  auto point = std::make_shared<std::optional<Vec3>>();
+  CLI::App* app =
+      parent.add_subcommand("goto", "Moves the scene of a running wall: a point to its middle");
+  add_vec3(*app, "POINT", *point, "Of the scene, in its own units")->required();
+  add_common(*app, *command);
+  app->footer("\nExamples:\n  vindu goto 0,1.5,-2\n  vindu goto -- -1,0,0\n");
+  app->callback([command, point, &chosen] {
+    chosen = [command, point] {
+      const Vec3& p = **point;
+      return ask(*command, Verb::go_to, fmt::format("{},{},{}", p.x(), p.y(), p.z()));
+    };
+  });
+}
+
+void add_pattern(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ControlCommand>();
+  CLI::App* app = parent.add_subcommand("pattern", "A test picture over a running wall");
+  app->add_option("PATTERN", command->argument,
+                  "counter: every frame's number on every tile; none: nothing")
+      ->required();
+  add_common(*app, *command);
+  app->footer("\nExamples:\n  vindu pattern counter\n  vindu pattern none --wall wall.toml\n");
+  app->callback([command, &chosen] {
+    chosen = [command] { return ask(*command, Verb::pattern, command->argument); };
+  });
+}
+
+void add_stop(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ControlCommand>();
+  CLI::App* app = parent.add_subcommand("stop", "Ends a running wall");
+  add_common(*app, *command);
+  add_engine(*app, command->engine);
+  app->footer("\nExamples:\n  vindu stop\n  vindu stop --wall wall.toml\n");
+  app->callback([command, &chosen] {
+    chosen = [command] {
+      const Site site = load_site(command->wall_file);
+      if (has_hosts(site)) return stop_on_hosts(site, command->engine);
+      return ask(*command, Verb::stop, "");
+    };
+  });
+}
+
+}  // namespace vindu::app

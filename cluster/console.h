@@ -1,0 +1,52 @@
+// Commands to a running wall and their answers. Both ends: a console repeats its command until it
+// is answered, since the first may fall before the two know each other; the desk, at the master,
+// obeys each command once.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cluster/bus.h"
+
+namespace vindu {
+
+/// What a console asks for.
+struct Request {
+  Verb verb = Verb::show;
+  std::string argument{};
+};
+
+/// Asks as `self`, a name that no other console has. Returns the wall's answer, which may be a
+/// refusal. Throws Error where no master is found or none answers in time, and says which.
+AnswerMessage ask_wall(Transport& transport, const Participant& self, const Request& request,
+                       Duration patience);
+
+/// Throws Error with what the wall said where it did not do it.
+void expect_done(const AnswerMessage& answer);
+
+/// Commands that wait for an answer. The bus, which publishes answers and hears commands, must
+/// outlive it.
+class CommandDesk {
+ public:
+  /// `self`: who answers.
+  CommandDesk(Bus& bus, std::string self) : bus_(bus), self_(std::move(self)) {}
+
+  /// New ones, each once; a repeated one is answered as before, or in time.
+  std::vector<CommandMessage> take();
+  /// `text`: why not, where it is not done.
+  void answer(const CommandMessage& command, bool done, const std::string& text = "");
+
+ private:
+  static constexpr std::size_t kMostSenders = 64;
+  struct Last {
+    std::uint64_t request = 0;
+    std::optional<AnswerMessage> answer{};
+  };
+
+  Bus& bus_;
+  std::string self_;
+  std::map<std::string, Last> last_;  // by sender; one command at a time
+};
+
+}  // namespace vindu

@@ -1,0 +1,120 @@
+#include "cluster/launch/supervisor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vindu {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kCalledWrong = 2, kNoProgram = 127;
+constexpr auto kTurn = milliseconds(200);
+constexpr auto kStopPatience = std::chrono::seconds(3);
+
+Time now_() { return std::chrono::steady_clock::now(); }
+
+}  // namespace
+
+Supervisor::Supervisor(std::vector<ProcessPlan> plans, Output output, const RestartPolicy& policy)
+    : output_(std::move(output)) {
+  for (ProcessPlan& plan : plans) {
+    const std::string name = plan.name;
+    processes_.emplace(name, Process{std::move(plan), Restarts(policy), {}, now_()});
+  }
+}
+
+bool Supervisor::run() {
+  Outcome outcome = Outcome::running;
+  while (outcome == Outcome::running) {
+    start_due(now_());
+    const ChildNews news = children_.wait(next_start(now_()));
+    print(news);
+    for (const ChildEnd& end : news.ends)
+      if (outcome == Outcome::running) outcome = consider(end);
+    if (news.stop) outcome = Outcome::good;
+    output_.idle(restarts());
+  }
+  stop();
+  return outcome == Outcome::good;
+}
+
+int Supervisor::restarts() const {
+  int count = 0;
+  for (const auto& [name, process] : processes_) count += process.restarts.count();
+  return count;
+}
+
+void Supervisor::start_due(Time now) {
+  for (auto& [name, process] : processes_) {
+    if (!process.due || *process.due > now) continue;
+    process.due.reset();
+    process.started = now;
+    children_.start(name, process.plan.words);
+  }
+}
+
+Time Supervisor::next_start(Time now) const {
+  Time next = now + kTurn;
+  for (const auto& [name, process] : processes_)
+    if (process.due) next = std::min(next, *process.due);
+  return next;
+}
+
+void Supervisor::print(const ChildNews& news) {
+  for (const ChildLine& line : news.lines) {
+    if (line.result && processes_.at(line.name).plan.leads)
+      output_.result(line.text);
+    else
+      output_.log(line.name, line.text);
+  }
+}
+
+Supervisor::Outcome Supervisor::consider(const ChildEnd& end) {
+  Process& process = processes_.at(end.name);
+  if (end.signal == 0 && end.exit_code == 0)
+    return process.plan.leads ? Outcome::good : outcome_without_followers();
+  if (process.plan.leads && end.signal == 0) {
+    output_.trouble(end.name, text_of(end) + "; the wall is stopped");
+    return Outcome::bad;
+  }
+  if (end.exit_code == kCalledWrong || end.exit_code == kNoProgram)
+    return give_up(process, text_of(end));
+  const Time now = now_();
+  const auto delay = process.restarts.after_death(now - process.started);
+  if (!delay) return give_up(process, text_of(end) + " again and again");
+  process.due = now + *delay;
+  output_.trouble(end.name,
+                  fmt::format("{}; it starts again in {:.1f} s", text_of(end), seconds(*delay)));
+  return Outcome::running;
+}
+
+Supervisor::Outcome Supervisor::give_up(Process& process, const std::string& why) {
+  given_up_.push_back(process.plan.name);
+  output_.trouble(process.plan.name, why + "; given up: see its lines above");
+  return process.plan.leads ? Outcome::bad : outcome_without_followers();
+}
+
+/// A wall without tiles has ended, well or not.
+Supervisor::Outcome Supervisor::outcome_without_followers() const {
+  const auto lives = [this](const auto& entry) {
+    const Process& process = entry.second;
+    return !process.plan.leads && (process.due || children_.has(entry.first));
+  };
+  if (std::ranges::any_of(processes_, lives)) return Outcome::running;
+  return given_up_.empty() ? Outcome::good : Outcome::bad;
+}
+
+/// By SIGTERM; at once after another Ctrl-C or when they take too long.
+void Supervisor::stop() {
+  const Time limit = now_() + kStopPatience;
+  children_.signal_all(SIGTERM);
+  while (!children_.empty() && now_() < limit) {
+    const ChildNews news = children_.wait(limit);
+    print(news);
+    if (news.stop) break;
+  }
+}
+
+}  // namespace vindu

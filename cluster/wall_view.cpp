@@ -1,0 +1,149 @@
+#include "cluster/wall_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ranges>
+#include <tuple>
+
+#include "cluster/launch/node_set.h"
+
+namespace vindu {
+namespace {
+
+constexpr auto kBeats = std::chrono::seconds(2);
+
+/// Tiles that differ in figures alone.
+struct Group {
+  std::vector<std::string> names;
+  std::vector<const TileNow*> tiles;
+};
+
+/// "1201-1204"; a dash for a tile that has never said anything.
+template <class Get>
+std::string span_of(const Group& group, Get get) {
+  if (group.tiles.front()->last.incarnation == 0) return "-";
+  const auto [least, most] = std::ranges::minmax(group.tiles | std::views::transform(get));
+  return least == most ? fmt::format("{}", least) : fmt::format("{}-{}", least, most);
+}
+
+using Row = std::array<std::string, 7>;
+
+Row row_of(const Group& group) {
+  return {fold_names(group.names),
+          group.tiles.front()->state,
+          span_of(group, [](const TileNow* tile) { return tile->last.presented; }),
+          span_of(group, [](const TileNow* tile) { return std::lround(tile->last.frames_per_s); }),
+          span_of(group, [](const TileNow* tile) { return tile->last.late_frames; }),
+          span_of(group, [](const TileNow* tile) { return tile->restarts; }),
+          group.tiles.front()->last.error};
+}
+
+std::vector<Row> rows_of(const WallNow& wall) {
+  std::map<std::tuple<bool, std::string, std::string>, Group> groups;  // bad ones first
+  for (const TileNow& tile : wall.tiles) {
+    Group& group = groups[{tile.good(), tile.state, tile.last.error}];
+    group.names.push_back(tile.name);
+    group.tiles.push_back(&tile);
+  }
+  std::vector<Row> rows{{"TILES", "STATE", "FRAME", "FPS", "LATE", "RESTARTS", "LAST ERROR"}};
+  for (const auto& [key, group] : groups) rows.push_back(row_of(group));
+  return rows;
+}
+
+std::string text_of(const std::vector<Row>& rows) {
+  std::array<std::size_t, std::tuple_size_v<Row>> widths{};
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += fmt::format("{:<{}}", row[i], widths[i] + 2);
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string master_line(const WallNow& wall) {
+  if (!wall.master) return "no master\n";
+  std::string text = "master on " + wall.master->host;
+  if (wall.frame == 0) return text + ", no frame yet\n";
+  return text + fmt::format(": frame {}, {:.1f} fps, {} of {} tiles in the frame lock\n",
+                            wall.frame, wall.frames_per_s, wall.active_tiles, wall.tiles.size());
+}
+
+}  // namespace
+
+bool WallNow::good() const { return master && std::ranges::all_of(tiles, &TileNow::good); }
+
+WallView::WallView(const std::vector<std::string>& tiles, Participant self)
+    : self_(std::move(self)) {
+  for (const std::string& tile : tiles) now_.tiles.push_back({.name = tile});
+}
+
+void WallView::poll(Bus& bus, Time now) {
+  for (const Presence& presence : bus.take<Presence>()) hear(presence);
+  for (const StatusMessage& status : bus.take<StatusMessage>()) hear(status);
+  for (const FrameMessage& frame : bus.take<FrameMessage>()) hear(frame, now);
+}
+
+TileNow* WallView::find(const std::string& tile) {
+  const auto found = std::ranges::find(now_.tiles, tile, &TileNow::name);
+  return found == now_.tiles.end() ? nullptr : &*found;
+}
+
+void WallView::hear(const StatusMessage& status) {
+  TileNow* const tile = find(status.tile);
+  if (!tile) return;
+  if (tile->last.incarnation != 0 && tile->last.incarnation != status.incarnation) ++tile->restarts;
+  tile->last = status;
+  tile->state = name_of(status.state);
+}
+
+void WallView::hear(const Presence& presence) {
+  const bool here = presence.change == PresenceChange::joined;
+  const bool gone = presence.change == PresenceChange::left;
+  if (presence.change == PresenceChange::other_version)
+    now_.complaints.push_back(version_complaint(self_, presence.who));
+  if (presence.who.role == Role::master && here) now_.master = presence.who;
+  if (presence.who.role == Role::master && gone && now_.master == presence.who) now_.master.reset();
+  if (presence.who.role == Role::tracker && gone) std::erase(now_.trackers, presence.who.name);
+  if (presence.who.role == Role::tracker && here) now_.trackers.push_back(presence.who.name);
+  TileNow* const tile = presence.who.role == Role::tile ? find(presence.who.name) : nullptr;
+  if (tile && gone) tile->state = "gone";
+  if (tile && presence.change == PresenceChange::silent) tile->state = "silent";
+}
+
+void WallView::hear(const FrameMessage& frame, Time now) {
+  if (frame.epoch < now_.epoch) return;
+  if (frame.epoch > now_.epoch) beats_.clear();
+  now_.epoch = frame.epoch;
+  now_.frame = frame.newest.number;
+  now_.active_tiles = frame.active_tiles;
+  beats_.push_back({now, frame.newest.number});
+  while (now - beats_.front().heard > kBeats) beats_.pop_front();
+  const double passed_s = seconds(now - beats_.front().heard);
+  if (passed_s > 0)
+    now_.frames_per_s = static_cast<double>(now_.frame - beats_.front().number) / passed_s;
+}
+
+std::string table_of(const WallNow& wall) {
+  std::string text = master_line(wall) + text_of(rows_of(wall));
+  for (const std::string& tracker : wall.trackers) text += "tracker " + tracker + "\n";
+  for (const std::string& complaint : wall.complaints) text += complaint + "\n";
+  return text;
+}
+
+std::string summary_of(const WallNow& wall) {
+  if (!wall.master) return "no master";
+  std::map<std::string, int> counts;
+  for (const TileNow& tile : wall.tiles) ++counts[tile.state];
+  std::string text;
+  for (const auto& [state, count] : counts) text += fmt::format("{} {}, ", count, state);
+  return text + fmt::format("{:.1f} fps", wall.frames_per_s);
+}
+
+}  // namespace vindu

@@ -1,0 +1,73 @@
+// What a console knows of a running wall from what everybody on the bus hears: which tiles there
+// are, what each of them does, and what is missing.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cluster/bus.h"
+
+namespace vindu {
+
+/// A tile as it is now.
+struct TileNow {
+  std::string name{};
+  std::string state = "missing";  ///< or silent, gone, or a TileState's name
+  StatusMessage last{};           ///< the newest that it said
+  int restarts = 0;               ///< since this console listens
+
+  bool good() const { return state == name_of(TileState::ready); }
+};
+
+struct WallNow {
+  std::optional<Participant> master{};
+  std::uint64_t epoch = 0;
+  std::uint64_t frame = 0;         ///< newest; 0: none was heard
+  double frames_per_s = 0;         ///< over the last seconds
+  std::uint32_t active_tiles = 0;  ///< in the frame lock
+  std::vector<TileNow> tiles{};    ///< in the wall file's order
+  std::vector<std::string> trackers{};
+  std::vector<std::string> complaints{};  ///< about other versions
+
+  /// A master, and all tiles ready.
+  bool good() const;
+};
+
+/// Bound to one thread.
+class WallView {
+ public:
+  static Topics hears() { return {Topic::tile_status, Topic::presence, Topic::frame}; }
+
+  /// `tiles`: names of those that should be there. `self`: who listens.
+  WallView(const std::vector<std::string>& tiles, Participant self);
+
+  /// Takes in what the bus, joined with these topics at least, has heard.
+  void poll(Bus& bus, Time now);
+  void hear(const StatusMessage& status);
+  void hear(const Presence& presence);
+  void hear(const FrameMessage& frame, Time now);
+
+  const WallNow& now() const { return now_; }
+
+ private:
+  struct Beat {
+    Time heard;
+    std::uint64_t number;
+  };
+
+  TileNow* find(const std::string& tile);
+
+  Participant self_;
+  WallNow now_;
+  std::deque<Beat> beats_;  // of the last seconds, of one epoch
+};
+
+/// A table with a line for each kind of tile, equal ones folded, and lines for what is missing.
+std::string table_of(const WallNow& wall);
+/// The same in a few words: "28 ready, 59.9 fps".
+std::string summary_of(const WallNow& wall);
+
+}  // namespace vindu

@@ -1,0 +1,115 @@
+// Which host runs what, and the texts for systemd and Slurm.
+#include "cluster/launch/host_plan.h"
+
+#include <gmock/gmock.h>
+
+#include "cluster/launch/hosts.h"
+#include "core/error.h"
+
+namespace vindu {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+Site site_of(const std::string& hosts) {
+  WallGrid grid;
+  grid.columns = 2;
+  grid.rows = 2;
+  grid.width_m = grid.height_m = 1;
+  grid.tile_width_px = grid.tile_height_px = 100;
+  grid.hosts = hosts;
+  Site site;
+  site.wall = expand_wall(grid, {}, {});
+  site.cluster.master = "head";
+  return site;
+}
+
+HostRequest request() {
+  return {.model = "my \"model\" 100%.glb",
+          .master_arguments = {"--mode", "loop"},
+          .tile_arguments = {"--scale", "0.5"},
+          .headless = false,
+          .program_sha256 = std::string(64, 'a'),
+          .wall_sha256 = std::string(64, 'b')};
+}
+
+TEST(HostPlans, NameEveryHostOnce) {
+  const auto plans = host_plans(site_of("column-{x}"));
+  ASSERT_THAT(names_of(plans), ElementsAre("head", "column-0", "column-1"));
+  EXPECT_TRUE(plans[0].master);
+  EXPECT_THAT(plans[0].tiles, SizeIs(0));
+  EXPECT_THAT(plans[2].tiles, ElementsAre("tile-1-0", "tile-1-1"));
+}
+
+TEST(HostPlans, LetTheMastersHostHaveTilesToo) {
+  Site site = site_of("tile-{x}-{y}");
+  site.cluster.master = "tile-1-1";
+  const auto plans = host_plans(site);
+  ASSERT_THAT(plans, SizeIs(4));
+  EXPECT_TRUE(plans[0].master);
+  EXPECT_THAT(plans[0].tiles, ElementsAre("tile-1-1"));
+}
+
+TEST(HostPlans, RefuseWhatSshOrClushWouldTakeForSomethingElse) {
+  for (const std::string host : {"-oProxyCommand=id", "@all", "a[0-3]", "a b", "a;b", "a,b", "",
+                                 "a$(id)", "a/b", "root@a", "*"})
+    EXPECT_THROW(host_plans(site_of(host)), Error) << host;
+}
+
+TEST(Units, OfTilesAreWatchedRestartedAndOfTheSession) {
+  const std::string unit = tile_unit(request());
+  EXPECT_THAT(unit, AllOf(HasSubstr("\nType=notify\n"), HasSubstr("\nRestart=on-failure\n"),
+                          HasSubstr("\nRestartSec=200ms\n"), HasSubstr("\nWatchdogSec=10\n"),
+                          HasSubstr("\nStartLimitBurst="),
+                          HasSubstr("\nPartOf=graphical-session.target\n")));
+  EXPECT_THAT(unit, HasSubstr("\nExecStart=%h/.vindu/bin/vindu tile $TILES --wall "
+                              "%h/.vindu/wall.toml \"--scale\" \"0.5\"\n"));
+  EXPECT_THAT(unit, HasSubstr("xset"));
+}
+
+TEST(Units, OfHeadlessTilesTouchNoScreen) {
+  HostRequest headless = request();
+  headless.headless = true;
+  EXPECT_THAT(tile_unit(headless), AllOf(HasSubstr(" --headless"), Not(HasSubstr("xset"))));
+}
+
+TEST(Units, OfTheMasterNameTheModelThatWasDeployed) {
+  EXPECT_THAT(master_unit(request()),
+              HasSubstr("\nExecStart=%h/.vindu/bin/vindu master \"%h/.vindu/scene/my \\\"model\\\" "
+                        "100%%.glb\" --wall %h/.vindu/wall.toml \"--mode\" \"loop\"\n"));
+}
+
+TEST(Scripts, AreGoodShell) {
+  const auto plans = host_plans(site_of("tile-{x}-{y}"));
+  for (const std::string& script : {start_script(plans, request()), stop_script(), restart_script(),
+                                    log_script(5), slurm_script(plans, request())}) {
+    const ProgramResult shell = run_program({"sh", "-n", "-c", script});
+    EXPECT_EQ(shell.exit_code, 0) << script;
+    EXPECT_THAT(shell.err, SizeIs(0));
+  }
+}
+
+TEST(Slurm, RunsOnEachHostWhatIsItsOwnWithTheArgumentsAsTheyAre) {
+  HostRequest nasty = request();
+  nasty.headless = true;
+  nasty.tile_arguments = {"$(id)", "it's"};
+  const std::string script = slurm_script(host_plans(site_of("tile-{x}-{y}")), nasty);
+  // srun and vindu stand-ins: one runs the step here, the other prints its words.
+  const std::string stand_ins = R"(home=$(mktemp -d); mkdir -p "$home/.vindu/bin"
+printf '#!/bin/sh\nshift 3; exec "$@"\n' > "$home/srun"
+printf '#!/bin/sh\nprintf "<%%s>" "$@"\n' > "$home/.vindu/bin/vindu"
+chmod +x "$home/srun" "$home/.vindu/bin/vindu"
+export HOME="$home" PATH="$home:$PATH" SLURMD_NODENAME=tile-1-0
+)";
+  const ProgramResult result = run_program({"sh", "-c", stand_ins + script});
+  ASSERT_THAT(result.out, SizeIs(1)) << ::testing::PrintToString(result.err);
+  EXPECT_THAT(result.out[0],
+              AllOf(HasSubstr("<tile><tile-1-0><--wall>"), HasSubstr("<--headless><$(id)><it's>")));
+}
+
+}  // namespace
+}  // namespace vindu

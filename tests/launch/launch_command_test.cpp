@@ -1,0 +1,100 @@
+// vindu launch, status, pattern, show, mode and stop together: a wall of real processes on this
+// machine and its consoles.
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "tests/app/process.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class LaunchCommand : public AppTest {
+ protected:
+  LaunchCommand() {
+    wall_ = write("wall.toml",
+                  "[wall]\ncolumns = 2\nrows = 1\nwidth_m = 1\nheight_m = 0.4\n"
+                  "tile_width_px = 640\ntile_height_px = 480\n[cluster]\nname = \"" +
+                      name_ + "\"\n");
+  }
+  ~LaunchCommand() override {
+    if (launcher_ <= 0) return;
+    kill(launcher_, SIGTERM);
+    waitpid(launcher_, nullptr, 0);
+  }
+
+  void launch() {
+    std::vector<std::string> words = {VINDU_PROGRAM, "launch",  small_model(), "--wall", wall_,
+                                      "--headless",  "--scale", "0.1",         "--mode", "loop"};
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    ASSERT_EQ(posix_spawn(&launcher_, words[0].c_str(), nullptr, nullptr, pointers.data(), environ),
+              0);
+  }
+  int launched_exit_code() {
+    int status = 0;
+    waitpid(std::exchange(launcher_, -1), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  ProcessResult ask(std::vector<std::string> words) const {
+    words.insert(words.end(), {"--wall", wall_});
+    return vindu(words);
+  }
+  void await_good() const {
+    while (ask({"status"}).exit_code != 0) continue;
+  }
+
+  std::string name_ = "launched-" + std::to_string(getpid());
+  std::string wall_;
+  pid_t launcher_ = -1;
+};
+
+TEST_F(LaunchCommand, LightsAWallThatConsolesSpeakTo) {
+  launch();
+  await_good();
+
+  EXPECT_THAT(ask({"status"}).out, HasSubstr("tile-[0-1]-0  ready"));
+  EXPECT_THAT(ask({"status", "--json"}).out,
+              AllOf(HasSubstr("\"good\": true"), HasSubstr("\"tile\": \"tile-1-0\"")));
+  EXPECT_EQ(ask({"pattern", "counter"}).exit_code, 0);
+  EXPECT_THAT(ask({"pattern", "no-such"}).err, HasSubstr("no-such"));
+  EXPECT_THAT(ask({"show", path("no.glb")}).err, HasSubstr("no.glb"));
+  EXPECT_THAT(ask({"launch"}).err, HasSubstr("a wall of this name runs on this machine"));
+  EXPECT_EQ(ask({"stop"}).exit_code, 0);
+  EXPECT_EQ(launched_exit_code(), 0);
+  EXPECT_EQ(ask({"status"}).exit_code, 1);
+}
+
+TEST_F(LaunchCommand, SaysWhatItWouldRun) {
+  const ProcessResult result = ask({"launch", "a b.glb", "--dry-run", "--tiles-per-process", "2"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("vindu master --wall " + wall_ + " 'a b.glb'\n"),
+                                HasSubstr("vindu tile tile-0-0 tile-1-0 --wall " + wall_)));
+}
+
+TEST_F(LaunchCommand, FailsWithTheMaster) {
+  const ProcessResult result = ask({"launch", path("no.glb"), "--headless", "--mode", "loop"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("no.glb"), HasSubstr("the wall is stopped")));
+}
+
+TEST_F(LaunchCommand, SaysWhatHostsWouldBeTold) {
+  wall_ = write("hosts.toml",
+                "[wall]\ncolumns = 2\nrows = 1\nwidth_m = 1\nheight_m = 0.4\n"
+                "tile_width_px = 640\ntile_height_px = 480\n"
+                "[cluster]\nmaster = \"head\"\n");
+  EXPECT_THAT(ask({"launch", "--dry-run"}).out,
+              AllOf(HasSubstr("-w 'head,tile-[0-1]-0'"), HasSubstr("Restart=on-failure")));
+  EXPECT_THAT(ask({"launch", "--dry-run", "--engine", "slurm"}).out, HasSubstr("srun --label"));
+}
+
+}  // namespace
+}  // namespace vindu
