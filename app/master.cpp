@@ -14,6 +14,7 @@
 #include "app/remote_eye.h"
 #include "app/stop_signals.h"
 #include "app/wall_figures.h"
+#include "cluster/console.h"
 #include "cluster/dds.h"
 #include "cluster/wall_master.h"
 #include "core/error.h"
@@ -120,7 +121,7 @@ class MasterRun {
       wall_.poll(now);
       note_events();
       follow_scenes();
-      for (const CommandMessage& command : bus_->take<CommandMessage>()) answer(command);
+      for (const CommandMessage& command : desk_.take()) answer(command);
       if (wall_.open() && now >= tick) {
         begin(now);
         const auto passed = static_cast<std::int64_t>(seconds(now - start) * site_.rate_hz + 1e-6);
@@ -223,11 +224,7 @@ class MasterRun {
 
   void reply(const CommandMessage& command, bool done, const std::string& text) {
     if (command.request == 0) return;
-    bus_->publish(AnswerMessage{.sender = command.sender,
-                                .request = command.request,
-                                .from = "master",
-                                .done = done,
-                                .text = text});
+    desk_.answer(command, done, text);
   }
 
   void answer(const CommandMessage& command) {
@@ -290,6 +287,7 @@ class MasterRun {
   EmulatedRoom room_;
   DdsTransport transport_;
   std::unique_ptr<Bus> bus_;
+  CommandDesk desk_{*bus_, "master"};
   WallMaster wall_;
   std::unique_ptr<EyeSource> eyes_;
   Placing placing_;

@@ -74,6 +74,7 @@ class GlfwWindow final : public Window {
     if (!window_)
       throw Error({"cannot open a window: " + last_glfw_error(), "display",
                    "OpenGL 4.5 is needed; draw without a window: vindu render"});
+    if (options.fullscreen) glfwSetInputMode(window_, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwSetWindowUserPointer(window_, this);
