@@ -62,11 +62,9 @@ void add_show(CLI::App& parent, Action& chosen) {
 void add_mode(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<ControlCommand>();
   CLI::App* app = parent.add_subcommand("mode", "How the eye moves on a running wall");
-  app->add_option(
-         "MODE", command->argument,
-         "track: the eye is tracked; loop: it follows a path; touch: fingers move the scene")
+  app->add_option("MODE", command->argument, "track: the eye is tracked; loop: it follows a path")
       ->required()
-      ->check(CLI::IsMember({"track", "loop", "touch"}));
+      ->check(CLI::IsMember({"track", "loop"}));
   add_common(*app, *command);
   app->footer("\nExamples:\n  vindu mode loop\n  vindu mode track --wall wall.toml\n");
   app->callback([command, &chosen] {
