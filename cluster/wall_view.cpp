@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <tuple>
 
 #include "cluster/launch/node_set.h"
@@ -25,7 +24,8 @@ struct Group {
 template <class Get>
 std::string span_of(const Group& group, Get get) {
   if (group.tiles.front()->last.incarnation == 0) return "-";
-  const auto [least, most] = std::ranges::minmax(group.tiles | std::views::transform(get));
+  const auto [first, last] = std::ranges::minmax(group.tiles, {}, get);
+  const auto least = get(first), most = get(last);
   return least == most ? fmt::format("{}", least) : fmt::format("{}-{}", least, most);
 }
 

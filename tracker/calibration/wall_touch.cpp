@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <ranges>
 
 #include "core/error.h"
 #include "tracker/calibration/layout.h"
@@ -104,7 +103,9 @@ struct Now {
 /// How many dots most of a camera's newest pictures show: none, one, or 2 for several.
 int lights_now(const Capture& capture, int camera, Time end) {
   std::array<int, 3> pictures{};
-  for (const Observation& seen : std::views::reverse(capture.observations)) {
+  for (auto newest = capture.observations.rbegin(); newest != capture.observations.rend();
+       ++newest) {
+    const Observation& seen = *newest;
     if (end - seen.arrival > from_seconds(2 * kNow_s)) break;
     if (seen.camera == camera && end - seen.arrival < from_seconds(kNow_s))
       ++pictures[std::min<std::size_t>(seen.dots.size(), 2)];
