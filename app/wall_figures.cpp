@@ -9,6 +9,13 @@
 namespace vindu::app {
 namespace {
 
+/// The last hour or so of a wall that runs for days.
+void keep(std::vector<double>& values, double value) {
+  constexpr std::size_t kMost = 1 << 18;
+  if (values.size() == kMost) values.erase(values.begin(), values.begin() + kMost / 2);
+  values.push_back(value);
+}
+
 struct Spread {
   double p50 = 0, p99 = 0, max = 0;
 };
@@ -40,19 +47,19 @@ void WallFigures::begun(Time now, std::optional<Duration> capture_age, Duration 
   constexpr std::size_t kKept = 256;
   begun_[++frames_] = now;
   if (begun_.size() > kKept) begun_.erase(begun_.begin());
-  if (last_begun_) gaps_ms_.push_back(1e3 * seconds(now - *last_begun_));
+  if (last_begun_) keep(gaps_ms_, 1e3 * seconds(now - *last_begun_));
   last_begun_ = now;
-  if (capture_age) capture_ages_ms_.push_back(1e3 * seconds(*capture_age));
-  solves_ms_.push_back(1e3 * seconds(solve));
+  if (capture_age) keep(capture_ages_ms_, 1e3 * seconds(*capture_age));
+  keep(solves_ms_, 1e3 * seconds(solve));
 }
 
 void WallFigures::add(const FrameSkew& skew) {
-  if (skew.tiles >= 2) skews_ms_.push_back(1e3 * seconds(skew.skew));
+  if (skew.tiles >= 2) keep(skews_ms_, 1e3 * seconds(skew.skew));
   const auto found = begun_.find(skew.number);
   if (found == begun_.end()) return;
   const double light_s = seconds(skew.last_shown - found->second);
   to_light_s_ += 0.1 * (std::clamp(light_s, 0.0, 1.0) - to_light_s_);
-  to_light_ms_.push_back(1e3 * light_s);
+  keep(to_light_ms_, 1e3 * light_s);
   begun_.erase(begun_.begin(), std::next(found));
 }
 
