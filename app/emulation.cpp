@@ -18,4 +18,12 @@ void apply(const EmulationOptions& options, EmulatedWiimoteOptions& wiimote) {
   wiimote.kernel = options.kernel;
 }
 
+EmulatedRoomOptions walking_room(const EmulationOptions& options, std::uint64_t seed, Time now) {
+  EmulatedRoomOptions room;
+  room.person.seed = room.wiimote.seed = seed;
+  room.person.start = now;
+  apply(options, room.wiimote);
+  return room;
+}
+
 }  // namespace vindu::app

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "simulator/emulated_wiimote.h"
+#include "simulator/emulated_room.h"
 
 namespace vindu::app {
 
@@ -16,6 +16,9 @@ struct EmulationOptions {
 
 /// --link good|busy|bad and --kernel; both without effect on real devices.
 void add_emulation(CLI::App& app, EmulationOptions& options);
+
+/// A room in which a person walks from now on; person and devices are of that seed.
+EmulatedRoomOptions walking_room(const EmulationOptions& options, std::uint64_t seed, Time now);
 
 void apply(const EmulationOptions& options, EmulatedWiimoteOptions& wiimote);
 

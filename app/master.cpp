@@ -13,6 +13,7 @@
 #include "app/eye_source.h"
 #include "app/remote_eye.h"
 #include "app/stop_signals.h"
+#include "app/wall_console.h"
 #include "app/wall_figures.h"
 #include "cluster/console.h"
 #include "cluster/dds.h"
@@ -42,12 +43,6 @@ struct MasterCommand {
 std::uint64_t new_epoch() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch() /
                                     std::chrono::nanoseconds(1));
-}
-
-std::vector<std::string> names_of(const Wall& wall) {
-  std::vector<std::string> names;
-  for (const Tile& tile : wall.tiles) names.push_back(tile.name);
-  return names;
 }
 
 /// As tiles are told: the show is part of every installation, a model has one path on all hosts.
@@ -81,19 +76,11 @@ class Placing {
   std::future<Navigation> result_;
 };
 
-EmulatedRoomOptions room_options(const MasterCommand& command, const Clock& clock) {
-  EmulatedRoomOptions room;
-  room.person.seed = room.wiimote.seed = command.seed;
-  room.person.start = clock.now();
-  apply(command.emulation, room.wiimote);
-  return room;
-}
-
 class MasterRun {
  public:
   MasterRun(const MasterCommand& command, const Site& site)
       : site_(site),
-        room_(site, clock_, room_options(command, clock_)),
+        room_(site, clock_, walking_room(command.emulation, command.seed, clock_.now())),
         transport_(dds_settings_of(site.cluster)),
         bus_(transport_.join({{.role = Role::master,
                                .name = "master",
@@ -103,7 +90,7 @@ class MasterRun {
                               kJoins})),
         wall_(*bus_, {.epoch = new_epoch(),
                       .host = host_name(),
-                      .tiles = names_of(site.wall),
+                      .tiles = tile_names(site.wall),
                       .barrier = {.lock = site.cluster.lock}}),
         elsewhere_(command.tracker_elsewhere),
         overlays_(command.counter ? std::uint32_t{kFrameCounter} : 0) {
@@ -146,16 +133,22 @@ class MasterRun {
     if (mode != "loop" && mode != "track")
       throw Error({"there is no mode \"" + mode + "\"", "mode", "choose track or loop"});
     if (mode == "loop") {
-      eyes_ = follow_path(
+      path_ = follow_path(
           read_camera_path(path_file.empty() ? find_asset("paths/sweep.toml") : path_file));
+      eyes_ = path_.get();
       return;
     }
+    if (!tracked_) tracked_ = make_tracked();
+    eyes_ = tracked_.get();
+  }
+
+  std::unique_ptr<EyeSource> make_tracked() {
     std::unique_ptr<EyeSource> own;
     if (!site_.cameras.empty() && !elsewhere_)
       own = std::make_unique<TrackedEye>(
           site_, room_, clock_,
           TrackedEyeOptions{.tracking = site_.tracking, .cameras = {.threads = true, .tap = {}}});
-    eyes_ = std::make_unique<RemoteEye>(*bus_, site_, std::move(own));
+    return std::make_unique<RemoteEye>(*bus_, site_, std::move(own));
   }
 
   void begin(Time now) {
@@ -289,7 +282,8 @@ class MasterRun {
   std::unique_ptr<Bus> bus_;
   CommandDesk desk_{*bus_, "master"};
   WallMaster wall_;
-  std::unique_ptr<EyeSource> eyes_;
+  std::unique_ptr<EyeSource> path_, tracked_;  // cameras are opened once, by the mode track
+  EyeSource* eyes_ = nullptr;
   Placing placing_;
   CommandMessage asked_scene_;  // answered when it could be read; request 0: the first one
   std::map<std::uint64_t, Navigation> navigations_;  // by scene

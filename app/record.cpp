@@ -114,11 +114,7 @@ int record(const RecordCommand& command) {
   refuse_video(site);
   const StopSignals signals;
   MonotonicClock clock;
-  EmulatedRoomOptions room_options;
-  room_options.person.seed = room_options.wiimote.seed = command.seed;
-  room_options.person.start = clock.now();
-  apply(command.emulation, room_options.wiimote);
-  const EmulatedRoom room(site, clock, room_options);
+  const EmulatedRoom room(site, clock, walking_room(command.emulation, command.seed, clock.now()));
   const RecordingInfo info = describe(wall_file, site, clock);
   const std::string file = command.out.empty() ? default_name() : command.out;
   RecordingWriter writer(file, info,

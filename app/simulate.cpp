@@ -74,11 +74,8 @@ void check_clock(const SimulateOptions& options, const Site& site) {
 }
 
 EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& clock) {
-  EmulatedRoomOptions room;
-  room.person.seed = room.wiimote.seed = options.seed;
-  room.person.start = clock.now();
+  EmulatedRoomOptions room = walking_room(options.emulation, options.seed, clock.now());
   room.wiimote.noise_px = options.noise_px;
-  apply(options.emulation, room.wiimote);
   return room;
 }
 

@@ -51,14 +51,6 @@ Site site_for(const TrackCommand& command) {
   return site;
 }
 
-EmulatedRoomOptions room_for(const TrackCommand& command, const Clock& clock) {
-  EmulatedRoomOptions room;
-  room.person.seed = room.wiimote.seed = command.seed;
-  room.person.start = clock.now();
-  apply(command.emulation, room.wiimote);
-  return room;
-}
-
 /// The state of things, in one line of a terminal.
 std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tracker,
                         const Cameras& cameras, const Site& site) {
@@ -144,7 +136,7 @@ int track(const TrackCommand& command) {
   const auto targets = targets_from(command.targets);
   const StopSignals signals;
   MonotonicClock clock;
-  const EmulatedRoom room(site, clock, room_for(command, clock));
+  const EmulatedRoom room(site, clock, walking_room(command.emulation, command.seed, clock.now()));
   const Cameras cameras(site, room, clock);
   Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
   PoseLines lines(site, targets);
