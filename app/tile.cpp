@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 #include <future>
 #include <random>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/service.h"
+#include "app/shown_file.h"
 #include "app/stop_signals.h"
 #include "cluster/dds.h"
 #include "cluster/wall_tile.h"
@@ -80,27 +80,6 @@ class Loading {
  private:
   std::uint64_t revision_ = 0;
   std::future<Scene> result_;
-};
-
-/// A line for each swap: when, which frame, and which number its pixels show.
-class ShownFile {
- public:
-  explicit ShownFile(const std::string& file) {
-    if (file.empty()) return;
-    stream_.open(file);
-    if (!stream_) throw Error({"cannot be written", file, "choose another --shown"});
-    stream_ << "time_ns,epoch,frame,tile,pixels,eye_x_m\n";
-  }
-  bool wanted() const { return stream_.is_open(); }
-  void add(Time time, const FrameMessage& frame, const std::string& tile, const Image& picture) {
-    const auto number = read_frame_counter(picture);
-    stream_ << time.time_since_epoch().count() << ',' << frame.epoch << ',' << frame.newest.number
-            << ',' << tile << ',' << (number ? std::to_string(*number) : "") << ','
-            << frame.newest.eye_in_wall.x() << std::endl;  // at once: a tile may be killed
-  }
-
- private:
-  std::ofstream stream_;
 };
 
 /// The pictures of this process' tiles, and what they show when there is no scene.
@@ -243,6 +222,7 @@ class TileRun {
     if (auto scene = tile_.take_scene()) wanted_ = std::move(scene);
     if (loading_.done()) {
       const std::uint64_t revision = loading_.revision();
+      tile_.loads(clock_.now());
       try {
         painter_->renderer().prepare(loading_.take());
         prepared_ = revision;
@@ -273,6 +253,7 @@ class TileRun {
     noticed_ = now;
     painter_->note(notice_lines(now));
     painter_->present();
+    tile_.spoiled();
   }
 
   MonotonicClock clock_;

@@ -57,23 +57,33 @@ bool Barrier::hear(const ReadyMessage& ready, Time now) {
   Member& member = found->second;
   if (member.incarnation != ready.incarnation) {
     if (member.incarnation != 0) note(ready.tile, MemberChange::restarted);
-    member = {.incarnation = ready.incarnation};
+    member = {.incarnation = ready.incarnation, .busy = member.busy};
   }
   if (ready.number > member.number) {
     member.number = ready.number;
     // One that is no slower than what is waited for has caught up, even if the wall has gone on
     // meanwhile: software renderers take longer for a frame than the wall waits between two.
     const auto took = age(ready.number, now);
-    member.caught_up = took && *took <= patience();
+    member.caught_up = took && *took <= patience() && !member.busy;
     if (member.caught_up) usual_.add(*took);
   }
   return ready.presented < ready.number && ready.number <= released_;
 }
 
+void Barrier::set_busy(const std::string& tile, bool busy) {
+  const auto found = members_.find(tile);
+  if (found == members_.end()) return;
+  Member& member = found->second;
+  member.busy = busy;
+  if (!busy) return;
+  if (member.active) note(tile, MemberChange::loads);
+  member.active = member.caught_up = false;
+}
+
 void Barrier::leave(const std::string& tile) {
   const auto found = members_.find(tile);
   if (found == members_.end() || found->second.number == 0) return;
-  found->second = {.incarnation = found->second.incarnation};
+  found->second = {.incarnation = found->second.incarnation, .busy = found->second.busy};
   note(tile, MemberChange::lost);
 }
 

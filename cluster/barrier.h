@@ -27,10 +27,10 @@ struct BarrierOptions {
   Duration timed_margin = std::chrono::milliseconds(3);
 };
 
-enum class MemberChange { admitted, evicted, lost, restarted };
+enum class MemberChange { admitted, loads, evicted, lost, restarted };
 
 constexpr std::string_view name_of(MemberChange change) {
-  constexpr std::string_view names[] = {"admitted", "evicted", "lost", "restarted"};
+  constexpr std::string_view names[] = {"admitted", "loads", "evicted", "lost", "restarted"};
   return names[static_cast<int>(change)];
 }
 
@@ -71,6 +71,9 @@ class Barrier {
   /// should go out again.
   bool hear(const ReadyMessage& ready, Time now);
 
+  /// A tile that has other things to do, or is done with them: nobody waits for it meanwhile.
+  void set_busy(const std::string& tile, bool busy);
+
   /// A tile that is known to be gone or hung holds nobody up.
   void leave(const std::string& tile);
 
@@ -97,6 +100,7 @@ class Barrier {
     std::uint64_t number = 0;       // newest frame that it has ready
     bool active = false;            // the others wait for it
     bool caught_up = false;         // active from the next frame on
+    bool busy = false;              // never caught up
   };
 
   std::optional<Duration> age(std::uint64_t number, Time now) const;

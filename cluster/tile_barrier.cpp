@@ -45,6 +45,8 @@ void TileBarrier::drew(std::uint64_t number, Time started, Time now) {
   draw_time_ = now - started;
 }
 
+void TileBarrier::spoiled() { drawn_ = presented_; }
+
 std::optional<Time> TileBarrier::show_time(Time now) const {
   if (drawn_ <= presented_ || drawn_ > heard_.released) return std::nullopt;
   if (!heard_.present_time || drawn_ < heard_.released) return now;

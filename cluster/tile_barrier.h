@@ -24,6 +24,8 @@ class TileBarrier {
   /// The newest frame and its scene, until it was drawn.
   const FrameMessage* to_draw() const;
   void drew(std::uint64_t number, Time started, Time now);
+  /// Something else was drawn over a frame that was not shown yet: it has to be drawn again.
+  void spoiled();
 
   /// When the drawn frame is to be shown; empty while it is not released, or was shown already.
   std::optional<Time> show_time(Time now) const;

@@ -94,6 +94,7 @@ void WallMaster::hear(const StatusMessage& status) {
   const auto found = tiles_.find(status.tile);
   if (found == tiles_.end()) return log_warning(status.tile, "is no tile of this wall: left out");
   found->second.status = status;
+  barrier_.set_busy(status.tile, status.state == TileState::loading);
 }
 
 void WallMaster::hear(const Presence& presence) {

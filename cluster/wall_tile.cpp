@@ -76,6 +76,11 @@ void WallTile::report(Time now) {
   reported_ = now;
 }
 
+void WallTile::loads(Time now) {
+  status_.state = TileState::loading;
+  report(now);
+}
+
 void WallTile::loaded(std::uint64_t revision) {
   status_.scene_revision = revision;
   status_.state = TileState::ready;

@@ -17,8 +17,9 @@ class WallTile {
   static Topics publishes() { return {Topic::ready, Topic::tile_status}; }
   static Topics hears() { return {Topic::frame, Topic::scene}; }
 
-  /// `self`: host, incarnation and version; the rest of the status is kept here. The tiles are
-  /// drawn and shown together. The bus, joined with these topics at least, must outlive it.
+  /// `self`: host, incarnation, version, and the state loading; the rest of the status is kept
+  /// here. The tiles are drawn and shown together. The bus, joined with these topics at least, must
+  /// outlive it.
   WallTile(Bus& bus, StatusMessage self, std::vector<std::string> tiles);
 
   void renders_with(const std::string& renderer) { status_.renderer = renderer; }
@@ -35,9 +36,13 @@ class WallTile {
   const FrameMessage* to_draw() const { return barrier_.to_draw(); }
   void drew(std::uint64_t number, Time started, Time now);
   void showed(Time now);
+  /// Something else was drawn over a frame that was not shown yet: it comes again.
+  void spoiled() { barrier_.spoiled(); }
 
   /// The newest scene that the master asks for, once.
   std::optional<SceneMessage> take_scene() { return std::exchange(scene_, std::nullopt); }
+  /// From now on the tile does not answer until loaded() or could_not_load(): nobody waits for it.
+  void loads(Time now);
   void loaded(std::uint64_t revision);
   /// It is shown as an error from the frame on in which the others change to it.
   void could_not_load(std::uint64_t revision, const std::string& why);

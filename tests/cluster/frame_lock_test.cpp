@@ -232,6 +232,43 @@ TEST(FrameLock, OneThatDiesWhileItLoadsHoldsUpNoChange) {
   EXPECT_TRUE(wall.master().loading().empty());
 }
 
+TEST(FrameLock, NobodyWaitsForATileThatSaysThatItLoads) {
+  SimulatedWall wall(8);
+  wall.run(2);
+  SimulatedTile& tile = *wall.tiles[3];
+  const Time said = wall.world.now();
+  tile.tile().loads(said);
+  wall.run(0.002);
+  tile.stop();
+  wall.run(0.5);
+  EXPECT_EQ(wall.master().active(), 7u);
+  EXPECT_LT(longest_gap_s(*wall.tiles[0], said), 0.04);
+  tile.go_on();
+  wall.run(0.5);
+  EXPECT_EQ(wall.master().active(), 7u) << "it has not said that it is done";
+  tile.tile().loaded(1);
+  wall.run(0.5);
+  EXPECT_EQ(wall.master().active(), 8u);
+  EXPECT_EQ(wall.count(MemberChange::loads), 1u);
+  EXPECT_EQ(wall.count(MemberChange::evicted), 0u);
+  expect_right_frames(wall);
+}
+
+TEST(TileBarrier, DrawsAFrameAgainThatWasSpoiledBeforeItWasShown) {
+  TileBarrier tile(1);
+  const Time now{milliseconds(5)};
+  FrameMessage frame{.epoch = 1, .newest = {.number = 7}, .released = 6};
+  tile.hear(frame, now);
+  tile.drew(7, now, now);
+  tile.spoiled();
+  frame.released = 7;
+  tile.hear(frame, now);
+  EXPECT_FALSE(tile.show_time(now));
+  ASSERT_TRUE(tile.to_draw());
+  tile.drew(7, now, now);
+  EXPECT_TRUE(tile.show_time(now));
+}
+
 // Whatever happens, in whatever order: no tile shows a wrong frame, and the others wait once each.
 TEST(FrameLock, ShowsNoWrongFrameInTenMinutesOfFaults) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {

@@ -118,8 +118,9 @@ class SimulatedTile {
     ++life_;
     busy_ = false;
     bus.awake = bus.plugged = true;
-    tile_.emplace(bus, StatusMessage{.host = name_, .incarnation = incarnation},
-                  std::vector{name_});
+    tile_.emplace(
+        bus, StatusMessage{.host = name_, .incarnation = incarnation, .state = TileState::ready},
+        std::vector{name_});
     wake();
   }
   void kill() {

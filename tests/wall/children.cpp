@@ -15,7 +15,8 @@ int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 +
 
 }  // namespace
 
-Child::Child(std::vector<std::string> words, const std::string& output_file) {
+Child::Child(std::vector<std::string> words, const std::string& output_file,
+             const std::function<void()>& enter) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -27,6 +28,7 @@ Child::Child(std::vector<std::string> words, const std::string& output_file) {
   const int output = open(output_file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
+  enter();
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
   execv(argv[0], argv.data());

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,10 @@ namespace vindu::testing {
 /// Killed at the end of its scope, if it still runs, and when the test dies.
 class Child {
  public:
-  /// Its output goes to that file.
-  Child(std::vector<std::string> words, const std::string& output_file);
+  /// Its output goes to that file. `enter` is called in the child, before the program starts.
+  Child(
+      std::vector<std::string> words, const std::string& output_file,
+      const std::function<void()>& enter = [] {});
   Child(Child&& other) noexcept;
   Child& operator=(Child&&) = delete;
   ~Child();

@@ -7,13 +7,12 @@
 #include <array>
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <thread>
 
 #include "tests/app/process.h"
 #include "tests/wall/children.h"
+#include "tests/wall/swaps.h"
 
 namespace vindu {
 namespace {
@@ -35,36 +34,6 @@ position_m = [1.0, 2.3, 5.0]
 look_at_m = [0, 1.65, 2.0]
 focal_px = 1335
 )";
-
-/// One swap, as --shown writes it.
-struct Swap {
-  std::string epoch;
-  std::uint64_t frame = 0;
-  std::string tile;
-  std::string pixels;
-  std::string eye_x_m;
-};
-
-std::vector<Swap> swaps_in(const std::string& file) {
-  std::vector<Swap> swaps;
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  while (std::getline(stream, line) && !stream.eof()) {
-    std::istringstream words(line);
-    Swap swap;
-    std::string time, frame;
-    std::getline(words, time, ',');
-    std::getline(words, swap.epoch, ',');
-    std::getline(words, frame, ',');
-    std::getline(words, swap.tile, ',');
-    std::getline(words, swap.pixels, ',');
-    std::getline(words, swap.eye_x_m, ',');
-    swap.frame = std::stoull(frame);
-    swaps.push_back(swap);
-  }
-  return swaps;
-}
 
 class WallTest : public AppTest {
  protected:
@@ -104,18 +73,9 @@ class WallTest : public AppTest {
   /// Every swap showed, in its pixels, the frame that it said; frames come in order; all tiles had
   /// one eye in one frame.
   void expect_right(const std::vector<std::string>& files) const {
-    std::map<std::pair<std::string, std::uint64_t>, std::string> eye_of;
-    for (const std::string& file : files) {
-      std::map<std::string, std::map<std::string, std::uint64_t>> last;  // by tile and epoch
-      for (const Swap& swap : swaps_in(path(file))) {
-        ASSERT_EQ(swap.pixels, std::to_string(swap.frame)) << file;
-        std::uint64_t& before = last[swap.tile][swap.epoch];
-        ASSERT_GT(swap.frame, before) << file;
-        before = swap.frame;
-        const auto [eye, added] = eye_of.try_emplace({swap.epoch, swap.frame}, swap.eye_x_m);
-        ASSERT_EQ(eye->second, swap.eye_x_m) << file << " frame " << swap.frame;
-      }
-    }
+    std::vector<std::vector<Swap>> swaps;
+    for (const std::string& file : files) swaps.push_back(swaps_in(path(file)));
+    EXPECT_THAT(wrong_swaps(swaps), ::testing::IsEmpty());
   }
 
   static std::vector<std::string> all() { return {"tile-0-0", "tile-1-0", "tile-0-1", "tile-1-1"}; }

@@ -1,0 +1,44 @@
+#include "app/shown_file.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "renderer/frame_counter.h"
+
+namespace vindu::app {
+
+ShownFile::ShownFile(const std::string& file) : file_(file) {
+  if (file.empty()) return;
+  stream_.rdbuf()->pubsetbuf(nullptr, 0);  // each line at once: a tile may be killed
+  stream_.open(file);
+  if (!stream_) throw Error({"cannot be written", file, "choose another --shown"});
+  write("", "time_ns,epoch,frame,tile,pixels,eye_x_m,locked\n");
+}
+
+void ShownFile::add(Time time, const FrameMessage& frame, const std::string& tile,
+                    const Image& picture) {
+  const auto number = read_frame_counter(picture);
+  write(tile, fmt::format("{},{},{},{},{},{},{}\n", time.time_since_epoch().count(), frame.epoch,
+                          frame.newest.number, tile, number ? std::to_string(*number) : "",
+                          frame.newest.eye_in_wall.x(), frame.active_tiles));
+}
+
+void ShownFile::write(const std::string& tile, const std::string& line) {
+  if (stream_.write(line.data(), static_cast<std::streamsize>(line.size()))) {
+    size_ += line.size();
+    if (lost_ > 0) log_info(tile, fmt::format("{}: written again, {} lines lost", file_, lost_));
+    lost_ = 0;
+    return;
+  }
+  if (lost_++ == 0) log_warning(tile, file_ + ": cannot be written; lines get lost");
+  // What of the line got through goes away.
+  std::error_code unable;
+  std::filesystem::resize_file(file_, size_, unable);
+  stream_.clear();
+  stream_.seekp(static_cast<std::streamoff>(size_));
+}
+
+}  // namespace vindu::app
