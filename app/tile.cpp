@@ -159,6 +159,7 @@ class TileRun {
     tile_.renders_with(gl_description());
     painter_.emplace(part_, command.scale.value_or(1), *surface_);
     log_info(command.tiles.front(), gl_description());
+    if (site.cluster.swap_group) join_group(command.tiles.front());
   }
 
   void run(const StopSignals& signals) {
@@ -174,6 +175,14 @@ class TileRun {
   }
 
  private:
+  void join_group(const std::string& tile) {
+    const SwapGroupState state = join_swap_group(surface_->swap_group());
+    if (state.bound)
+      log_info(tile, state.text);
+    else
+      log_warning(tile, state.text);
+  }
+
   void step() {
     const Time now = clock_.now();
     tile_.poll(now);

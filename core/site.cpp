@@ -196,6 +196,7 @@ void read_cluster(TomlTable& root, ClusterConfig& cluster) {
   cluster.interface = read_word(*table, "interface").value_or(cluster.interface);
   cluster.multicast = table->boolean("multicast").value_or(cluster.multicast);
   cluster.domain = table->integer("domain", {0, 230}).value_or(cluster.domain);
+  cluster.swap_group = table->boolean("swap_group").value_or(cluster.swap_group);
   cluster.lock = lock_from(table->one_of("lock", {"barrier", "timed", "free"}).value_or("barrier"));
   if (cluster.interface == "lo" && !cluster.master.empty())
     table->fail("interface", "is \"lo\", which no other host reaches; name the one to " +

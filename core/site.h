@@ -120,6 +120,7 @@ struct ClusterConfig {
   bool multicast = true;
   int domain = 0;  ///< of DDS: which UDP ports
   FrameLock lock = FrameLock::barrier;
+  bool swap_group = false;  ///< graphics cards with a sync board swap together by wire
 };
 
 struct Site {

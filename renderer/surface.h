@@ -10,6 +10,7 @@
 #include "core/clock.h"
 #include "core/rigid3.h"
 #include "renderer/canvas.h"
+#include "renderer/swap_group.h"
 
 namespace vindu {
 
@@ -24,6 +25,8 @@ class Surface {
   virtual bool close_wanted() const = 0;
   /// Whether what was presented last has reached the display: to present before waits for that.
   virtual bool free() const = 0;
+  /// What its driver offers to swap together with others; empty functions: nothing.
+  virtual SwapGroupCalls swap_group() const { return {}; }
 };
 
 /// A display that is not there: when it would take a new picture.

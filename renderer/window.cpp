@@ -55,6 +55,32 @@ Rect rect_of(GLFWmonitor* monitor) {
   return rect;
 }
 
+template <class Function>
+Function* glx_function(const char* name) {
+  return reinterpret_cast<Function*>(glfwGetProcAddress(name));
+}
+
+/// For the current context's window, where GLX made it: with Xlib's Bool as int, its Display as
+/// void, and XIDs as unsigned long, as they are in its binary interface.
+SwapGroupCalls calls_of_glx() {
+  if (!glfwExtensionSupported("GLX_NV_swap_group")) return {};
+  const auto display = glx_function<void*()>("glXGetCurrentDisplay");
+  const auto drawable = glx_function<unsigned long()>("glXGetCurrentDrawable");
+  const auto query_max =
+      glx_function<int(void*, int, unsigned*, unsigned*)>("glXQueryMaxSwapGroupsNV");
+  const auto join = glx_function<int(void*, unsigned long, unsigned)>("glXJoinSwapGroupNV");
+  const auto bind = glx_function<int(void*, unsigned, unsigned)>("glXBindSwapBarrierNV");
+  if (!display || !drawable || !query_max || !join || !bind) return {};
+  constexpr int kScreen = 0;  // X screens beyond the first are a thing of the past
+  return {.query_max =
+              [=](unsigned& groups, unsigned& barriers) {
+                return query_max(display(), kScreen, &groups, &barriers) != 0;
+              },
+          .join = [=](unsigned group) { return join(display(), drawable(), group) != 0; },
+          .bind = [=](unsigned group,
+                      unsigned barrier) { return bind(display(), group, barrier) != 0; }};
+}
+
 class GlfwWindow final : public Window {
  public:
   explicit GlfwWindow(const WindowOptions& options) {
@@ -103,6 +129,7 @@ class GlfwWindow final : public Window {
     if (glfwGetKey(window_, GLFW_KEY_ESCAPE) == GLFW_PRESS)
       glfwSetWindowShouldClose(window_, GLFW_TRUE);
   }
+  SwapGroupCalls swap_group() const override { return calls_of_glx(); }
   bool close_wanted() const override { return glfwWindowShouldClose(window_); }
   bool free() const override { return swapped_.passed(); }
 

@@ -173,7 +173,7 @@ TEST(Site, ReadsHowItsProcessesFindEachOther) {
   const ClusterConfig cluster =
       site_of(kGrid +
               "[cluster]\nname = \"left\"\nmaster = \"10.77.0.1\"\ninterface = \"eth1\"\n"
-              "multicast = false\ndomain = 7\nlock = \"timed\"\n")
+              "multicast = false\ndomain = 7\nlock = \"timed\"\nswap_group = true\n")
           .cluster;
   EXPECT_EQ(cluster.name, "left");
   EXPECT_EQ(cluster.master, "10.77.0.1");
@@ -181,6 +181,7 @@ TEST(Site, ReadsHowItsProcessesFindEachOther) {
   EXPECT_FALSE(cluster.multicast);
   EXPECT_EQ(cluster.domain, 7);
   EXPECT_EQ(cluster.lock, FrameLock::timed);
+  EXPECT_TRUE(cluster.swap_group);
 }
 
 TEST(Placement, IsKnownByItsName) {
