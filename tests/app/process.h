@@ -18,7 +18,8 @@ struct ProcessResult {
 
 using Environment = std::map<std::string, std::string>;
 
-/// Runs a program to its end; one that takes longer than 200 s is killed. Without a display, unless
+/// Runs a program to its end; one that takes longer than 200 s (1000 s under the address
+/// sanitizer) is killed. Without a display, unless
 /// `environment` names one.
 ProcessResult run(const std::vector<std::string>& words, const Environment& environment = {});
 

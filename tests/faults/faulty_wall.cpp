@@ -15,9 +15,10 @@ namespace fs = std::filesystem;
 std::string wall_text(const FaultyWallOptions& options) {
   return fmt::format(
       "[wall]\ncolumns = {0}\nrows = {1}\nwidth_m = {2}\nheight_m = {3}\n"
-      "tile_width_px = 1024\ntile_height_px = 768\n"
+      "tile_width_px = 1024\ntile_height_px = 768\nrate_hz = {4}\n"
       "[cluster]\nmaster = \"10.77.0.1\"\ninterface = \"e0\"\n",
-      options.columns, options.rows, 5.185 / 7 * options.columns, 2.238 / 4 * options.rows);
+      options.columns, options.rows, 5.185 / 7 * options.columns, 2.238 / 4 * options.rows,
+      options.rate_hz);
 }
 
 Time time_of(const Swap& swap) { return Time(std::chrono::nanoseconds(swap.time_ns)); }
@@ -113,6 +114,18 @@ std::vector<std::vector<Swap>> FaultyWall::swaps(std::size_t tile) {
 std::string FaultyWall::master_log() const {
   std::ifstream stream(options_.folder + "/master.log");
   return {std::istreambuf_iterator(stream), {}};
+}
+
+FaultyWall::Holdings FaultyWall::holdings(std::size_t member) const {
+  const std::string process = "/proc/" + std::to_string(members_[member]->process->id());
+  Holdings holdings;
+  std::ifstream status(process + "/status");
+  for (std::string word; status >> word;)
+    if (word == "RssAnon:" && status >> holdings.memory_mib) holdings.memory_mib /= 1024;
+  std::error_code gone;
+  for ([[maybe_unused]] const auto& file : fs::directory_iterator(process + "/fd", gone))
+    ++holdings.files;
+  return holdings;
 }
 
 std::vector<std::string> FaultyWall::stop() {

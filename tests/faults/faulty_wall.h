@@ -21,6 +21,7 @@ struct FaultyWallOptions {
   int columns = 7;
   int rows = 4;
   double scale = 0.1;
+  double rate_hz = 60;
   std::string model;       ///< empty: the show
   std::string folder;      ///< for all that the run writes; is there
   std::uint64_t seed = 1;  ///< of the switch
@@ -58,6 +59,13 @@ class FaultyWall {
   /// Swaps by the tile's processes, one after the other.
   std::vector<std::vector<Swap>> swaps(std::size_t tile);
   std::string master_log() const;
+
+  /// What a member's process holds now.
+  struct Holdings {
+    double memory_mib = 0;  ///< its own, in RAM
+    std::size_t files = 0;  ///< open
+  };
+  Holdings holdings(std::size_t member) const;
 
   /// Ends all by signals; what did not end well, a sentence each.
   std::vector<std::string> stop();

@@ -87,6 +87,9 @@ class FaultRun {
     }
   }
 
+  /// Of the master and of the tile that holds most, a line.
+  void say_holdings(const char* when) const;
+
   std::vector<std::string> stop() { return wall_.stop(); }
   std::size_t left_over() const { return wall_.left_over(); }
 
@@ -236,6 +239,17 @@ Duration FaultRun::longest_wait(std::size_t but, Time from, Time to) {
   return longest;
 }
 
+void FaultRun::say_holdings(const char* when) const {
+  const FaultyWall::Holdings master = wall_.holdings(FaultyWall::kMaster);
+  FaultyWall::Holdings most;
+  for (std::size_t tile = 1; tile <= wall_.tiles(); ++tile) {
+    const FaultyWall::Holdings held = wall_.holdings(tile);
+    most = {std::max(most.memory_mib, held.memory_mib), std::max(most.files, held.files)};
+  }
+  fmt::print("  memory and open files {}: master {:.2f} MiB, {}; the largest tile {:.2f} MiB, {}\n",
+             when, master.memory_mib, master.files, most.memory_mib, most.files);
+}
+
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   std::ranges::sort(values);
@@ -297,7 +311,11 @@ int run(const Options& options) {
   }
   fmt::print("{} x {} tiles, seed {}: the first whole frame after {:.2f} s\n", options.wall.columns,
              options.wall.rows, options.wall.seed, vindu::seconds(*started));
-  run.quiet(from_seconds(options.quiet_s));
+  run.quiet(from_seconds(0.1 * options.quiet_s));
+  run.say_holdings("at first");
+  std::fflush(stdout);
+  run.quiet(from_seconds(0.9 * options.quiet_s));
+  run.say_holdings("after the quiet");
   run.faults(from_seconds(options.fault_s));
   const std::vector<std::string> ends = run.stop();
   const std::vector<std::string> wrong = run.wrong();
@@ -323,6 +341,7 @@ int main(int argc, char** argv) {
   app.add_option("--columns", options.wall.columns, "Of tiles (7)");
   app.add_option("--rows", options.wall.rows, "Of tiles (4)");
   app.add_option("--scale", options.wall.scale, "Of the tiles' pixels (0.1)");
+  app.add_option("--rate-hz", options.wall.rate_hz, "Frames a second (60)");
   app.add_option("--model", options.wall.model, "Instead of the show");
   app.add_option("--seed", options.wall.seed, "Of the faults' order and the network's losses");
   app.add_option("--only", options.only, "Faults whose name has this in it: \"tile\", \"jitter\"");

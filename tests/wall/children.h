@@ -20,6 +20,7 @@ class Child {
   Child& operator=(Child&&) = delete;
   ~Child();
 
+  pid_t id() const { return pid_; }
   void send(int signal) const;
   /// Waits for its end: its exit code, 128 + the signal's number where one ended it.
   int end();
