@@ -60,7 +60,7 @@ void print(const StatusCommand& command, const WallNow& wall) {
 int status(const StatusCommand& command) {
   const Site site = load_site(command.wall_file);
   const StopSignals signals;
-  DdsTransport transport(dds_settings_of(site.cluster));
+  DdsTransport transport(network_of(site, Role::console));
   const Participant self = this_console();
   const auto bus = transport.join({self, {}, WallView::hears()});
   WallView view(tile_names(site.wall), self);

@@ -3,6 +3,7 @@
 #include <ifaddrs.h>
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #include <set>
 
 #include "cluster/internal/dds_entity.h"
+#include "cluster/internal/dds_security.h"
 #include "cluster/internal/participant_text.h"
 #include "cluster/internal/signal.h"
 #include "cluster/internal/wire_types.h"
@@ -62,6 +64,7 @@ std::string interfaces() {
 /// Cyclone's domain in this process. Those are numbered per process; what other processes see is
 /// the external number in the configuration.
 DdsEntity open_domain(const DdsSettings& settings) {
+  internal::log_what_dds_says();
   const char* const environment = std::getenv("CYCLONEDDS_URI");
   const std::string xml = dds_configuration(settings, environment ? environment : "");
   for (dds_domainid_t id = 0; id < kMostDomains; ++id) {
@@ -76,6 +79,18 @@ DdsEntity open_domain(const DdsSettings& settings) {
   throw Error({.what = "the network cannot be joined",
                .where = "interface " + settings.interface,
                .remedy = "there are: " + interfaces()});
+}
+
+/// Throws Error where a key's permissions forbid it.
+dds_entity_t expect_allowed(dds_entity_t entity, Topic topic, const Participant& self) {
+  if (entity == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+    throw Error({.what = "the key of this " + std::string(name_of(self.role)) +
+                         " does not allow it to take part in the topic " +
+                         std::string(rules_of(topic).name),
+                 .where = self.name,
+                 .remedy = "make it anew with this version: vindu keys --renew"});
+  assert(entity > 0);
+  return entity;
 }
 
 /// Samples of one topic as Cyclone writes them: flat structs in our own memory.
@@ -107,14 +122,17 @@ class SampleBuffer {
 
 class DdsTransport::Domain {
  public:
-  explicit Domain(const DdsSettings& settings) : entity_(open_domain(settings)) {
+  explicit Domain(const DdsSettings& settings)
+      : credentials_(settings.credentials), entity_(open_domain(settings)) {
     dds_domainid_t id = 0;
     dds_get_domainid(entity_.get(), &id);
     id_ = id;
   }
   dds_domainid_t id() const { return id_; }
+  const std::optional<Credentials>& credentials() const { return credentials_; }
 
  private:
+  std::optional<Credentials> credentials_;
   DdsEntity entity_;
   dds_domainid_t id_ = 0;
 };
@@ -155,6 +173,7 @@ class DdsTransport::Member final : public Bus {
   std::array<dds_entity_t, kTopics> topics_{};
   std::array<dds_entity_t, kTopics> writers_{};
   std::array<Reader, kTopics> readers_;
+  std::atomic<unsigned> unsent_ = 0;
   dds_entity_t participants_reader_ = 0;
   std::map<dds_instance_handle_t, Participant> present_;
   std::set<std::string> alive_;  // tiles
@@ -166,6 +185,7 @@ DdsTransport::Member::Member(const Domain& domain, const Membership& membership)
   const std::string text = internal::text_of(membership.self);
   const internal::DdsQos qos = internal::make_dds_qos();
   dds_qset_userdata(qos.get(), text.data(), text.size());
+  if (domain.credentials()) internal::add_credentials(qos.get(), *domain.credentials());
   participant_ = {dds_create_participant(domain.id(), qos.get(), nullptr), "a participant"};
   for (int i = 0; i < kTopics; ++i) {
     const auto topic = static_cast<Topic>(i);
@@ -186,8 +206,7 @@ dds_entity_t DdsTransport::Member::topic_entity(Topic topic) {
       "v" + std::to_string(membership_.self.protocol) + "/" + std::string(rules_of(topic).name);
   entity =
       dds_create_topic(participant_.get(), &descriptor_of(topic), name.c_str(), nullptr, nullptr);
-  assert(entity > 0);
-  return entity;
+  return expect_allowed(entity, topic, membership_.self);
 }
 
 void DdsTransport::Member::open_writer(Topic topic) {
@@ -195,8 +214,7 @@ void DdsTransport::Member::open_writer(Topic topic) {
   if (rules_of(topic).exclusive) dds_qset_ownership_strength(qos.get(), membership_.strength);
   const dds_entity_t writer =
       dds_create_writer(participant_.get(), topic_entity(topic), qos.get(), nullptr);
-  assert(writer > 0);
-  writers_[static_cast<std::size_t>(topic)] = writer;
+  writers_[static_cast<std::size_t>(topic)] = expect_allowed(writer, topic, membership_.self);
 }
 
 dds_entity_t DdsTransport::Member::open_reader(dds_entity_t of, const dds_qos_t* qos, Topic wakes) {
@@ -207,8 +225,7 @@ dds_entity_t DdsTransport::Member::open_reader(dds_entity_t of, const dds_qos_t*
     wake.signal->raise(wake.topic);
   });
   const dds_entity_t reader = dds_create_reader(participant_.get(), of, qos, listener.get());
-  assert(reader > 0);
-  return reader;
+  return expect_allowed(reader, wakes, membership_.self);
 }
 
 /// Who is there comes from DDS' own list of participants; that a tile is silent, from a second
@@ -235,9 +252,11 @@ void DdsTransport::Member::publish(const Message& message) {
         }
       },
       message);
-  if (!sent)
-    log_warning(membership_.self.name,
-                "a message of topic " + std::string(rules_of(topic).name) + " was not sent");
+  if (sent) return;
+  if (const unsigned unsent = ++unsent_; std::has_single_bit(unsent))
+    log_warning(membership_.self.name, std::to_string(unsent) + " messages were not sent so far, " +
+                                           "this one of topic " +
+                                           std::string(rules_of(topic).name));
 }
 
 std::vector<Message> DdsTransport::Member::take(Topic topic) {

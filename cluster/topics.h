@@ -116,6 +116,13 @@ struct TopicRules {
 };
 
 const TopicRules& rules_of(Topic topic);
+
+/// What a role may write and read where the wall has keys; nobody more than it needs.
+struct TopicRights {
+  Topics writes{};
+  Topics reads{};
+};
+TopicRights rights_of(Role role);
 std::string key_of(const Message& message);
 
 }  // namespace vindu

@@ -120,6 +120,7 @@ struct ClusterConfig {
   bool multicast = true;
   int domain = 0;  ///< of DDS: which UDP ports
   FrameLock lock = FrameLock::barrier;
+  std::string keys{};  ///< folder, made by vindu keys; empty: whoever is on the network takes part
 };
 
 struct Site {
