@@ -13,6 +13,7 @@
 #include "cluster/internal/dds_entity.h"
 #include "cluster/internal/dds_security.h"
 #include "cluster/internal/participant_text.h"
+#include "cluster/internal/role_marks.h"
 #include "cluster/internal/signal.h"
 #include "cluster/internal/wire_types.h"
 
@@ -165,8 +166,11 @@ class DdsTransport::Member final : public Bus {
   std::vector<Message> take_presence();
   void take_participants(std::vector<Message>& changes);
   void take_silences(std::vector<Message>& changes);
+  void believe(std::vector<Message>& changes);
+  void joined(dds_instance_handle_t id, const Participant& who, std::vector<Message>& changes);
   void arrived(dds_instance_handle_t id, const dds_qos_t* qos, std::vector<Message>& changes);
 
+  const bool with_keys_;
   const Membership membership_;
   Signal signal_;
   std::array<Wake, kTopics> wakes_;
@@ -175,18 +179,20 @@ class DdsTransport::Member final : public Bus {
   std::array<Reader, kTopics> readers_;
   std::atomic<unsigned> unsent_ = 0;
   dds_entity_t participants_reader_ = 0;
-  std::map<dds_instance_handle_t, Participant> present_;
+  internal::RoleMarks marks_;
+  std::map<dds_instance_handle_t, Participant> claims_, present_;
   std::set<std::string> alive_;  // tiles
   DdsEntity participant_;        // the last member, so the first to go: no listener outlives it
 };
 
 DdsTransport::Member::Member(const Domain& domain, const Membership& membership)
-    : membership_(membership) {
+    : with_keys_(domain.credentials().has_value()), membership_(membership) {
   const std::string text = internal::text_of(membership.self);
   const internal::DdsQos qos = internal::make_dds_qos();
   dds_qset_userdata(qos.get(), text.data(), text.size());
   if (domain.credentials()) internal::add_credentials(qos.get(), *domain.credentials());
   participant_ = {dds_create_participant(domain.id(), qos.get(), nullptr), "a participant"};
+  if (with_keys_) marks_.show(participant_.get(), membership.self.role);
   for (int i = 0; i < kTopics; ++i) {
     const auto topic = static_cast<Topic>(i);
     wakes_[i] = {&signal_, topic};
@@ -235,6 +241,16 @@ void DdsTransport::Member::open_presence() {
   reader.buffer = std::make_unique<SampleBuffer>(descriptor_of(Topic::tile_status));
   reader.handle = open_reader(topic_entity(Topic::tile_status), qos_of(Topic::tile_status).get(),
                               Topic::presence);
+  if (with_keys_) {
+    const internal::DdsListener news =
+        internal::make_dds_listener(&wakes_[static_cast<std::size_t>(Topic::presence)]);
+    dds_lset_subscription_matched(
+        news.get(), [](dds_entity_t, dds_subscription_matched_status_t, void* argument) {
+          const Wake& wake = *static_cast<const Wake*>(argument);
+          wake.signal->raise(wake.topic);
+        });
+    marks_.watch(participant_.get(), news.get());
+  }
   participants_reader_ = open_reader(DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, Topic::presence);
 }
 
@@ -289,6 +305,7 @@ std::vector<Message> DdsTransport::Member::take(Topic topic) {
 std::vector<Message> DdsTransport::Member::take_presence() {
   std::vector<Message> changes;
   take_participants(changes);
+  if (with_keys_) believe(changes);
   take_silences(changes);
   return changes;
 }
@@ -305,6 +322,8 @@ void DdsTransport::Member::take_participants(std::vector<Message>& changes) {
         arrived(id, static_cast<dds_builtintopic_participant_t*>(samples[i])->qos, changes);
       else if (const auto gone = present_.extract(id))
         changes.emplace_back(Presence{PresenceChange::left, gone.mapped()});
+      else
+        claims_.erase(id);
     }
     if (count > 0) dds_return_loan(participants_reader_, samples.data(), count);
   } while (count == kBatch);
@@ -319,10 +338,29 @@ void DdsTransport::Member::arrived(dds_instance_handle_t id, const dds_qos_t* qo
   if (id == own || !dds_qget_userdata(qos, &data, &size) || !data) return;
   const auto who = internal::participant_from({static_cast<const char*>(data), size});
   dds_free(data);
-  if (!who || !present_.emplace(id, *who).second) return;
-  const bool understood = who->protocol == membership_.self.protocol;
+  if (!who) return;
+  if (with_keys_)
+    claims_.emplace(id, *who);
+  else
+    joined(id, *who, changes);
+}
+
+/// Those whose role is proven by now.
+void DdsTransport::Member::believe(std::vector<Message>& changes) {
+  if (claims_.empty()) return;
+  for (const auto& [id, role] : marks_.proven())
+    if (const auto claim = claims_.find(id); claim != claims_.end() && claim->second.role == role) {
+      joined(id, claim->second, changes);
+      claims_.erase(claim);
+    }
+}
+
+void DdsTransport::Member::joined(dds_instance_handle_t id, const Participant& who,
+                                  std::vector<Message>& changes) {
+  if (!present_.emplace(id, who).second) return;
+  const bool understood = who.protocol == membership_.self.protocol;
   changes.emplace_back(
-      Presence{understood ? PresenceChange::joined : PresenceChange::other_version, *who});
+      Presence{understood ? PresenceChange::joined : PresenceChange::other_version, who});
 }
 
 void DdsTransport::Member::take_silences(std::vector<Message>& changes) {

@@ -68,6 +68,8 @@ TopicRights rights_of(Role role) {
   return {};
 }
 
+std::string mark_of(Role role) { return "vindu/is_" + std::string(name_of(role)); }
+
 std::string key_of(const Message& message) { return std::visit(KeyOf(), message); }
 
 std::string version_complaint(const Participant& self, const Participant& other) {

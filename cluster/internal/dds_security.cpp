@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <bit>
 #include <filesystem>
 #include <map>
@@ -47,8 +48,9 @@ void hear_dds(void* argument, const dds_log_data_t* line) {
     count = ++kinds.counts[{line->function ? line->function : "", line->line}];
   }
   if (!std::has_single_bit(count)) return;
-  std::string text(line->message + line->hdrsize);
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  std::string text(line->message);
+  std::ranges::replace(text, '\n', ' ');  // whatever comes of the wire: one line
+  while (text.ends_with(' ')) text.pop_back();
   if (count > 1) text += " (" + std::to_string(count) + " of this kind so far)";
   log_warning("network", text);
 }

@@ -50,12 +50,10 @@ void Authority::make() {
   const Validity validity{now - kSkewOfClocks, now + kLifeOfAuthority};
   keys_->identity_key = new_key();
   keys_->permissions_key = new_key();
-  keys_->identity = make_certificate(
-      {"identity CA", kUnit, Use::signs_certificates, validity}, *keys_->identity_key,
-      std::nullopt);
-  keys_->permissions = make_certificate(
-      {"permissions CA", kUnit, Use::signs_documents, validity}, *keys_->permissions_key,
-      std::nullopt);
+  keys_->identity = make_certificate({"identity CA", kUnit, Use::signs_certificates, validity},
+                                     *keys_->identity_key, std::nullopt);
+  keys_->permissions = make_certificate({"permissions CA", kUnit, Use::signs_documents, validity},
+                                        *keys_->permissions_key, std::nullopt);
   keys_->revoked = make_revoked_list({}, keys_->identity_issuer());
   const fs::path at = folder_;
   write_key_file(at / "revoked.pem", pem_of(*keys_->revoked));
@@ -82,8 +80,7 @@ void Authority::open() {
   keys_->permissions_key = key("ca/permissions_private.pem");
   keys_->identity = certificate("identity_ca.pem");
   keys_->permissions = certificate("permissions_ca.pem");
-  keys_->revoked =
-      revoked_list_from(read_key_file(file("revoked.pem")), file("revoked.pem"));
+  keys_->revoked = revoked_list_from(read_key_file(file("revoked.pem")), file("revoked.pem"));
 }
 
 system_clock::time_point Authority::until() const { return end_of(*keys_->identity); }
@@ -93,18 +90,17 @@ void Authority::issue(const KeyOwner& owner, const Validity& validity) {
   const Key key = new_key();
   const Certificate certificate =
       make_certificate({.name = owner.host.empty() ? name : owner.host,
-                                  .unit = std::string(name_of(owner.role)),
-                                  .use = Use::is_a_participant,
-                                  .validity = {validity.from, std::min(validity.until, until())}},
-                                 *key, keys_->identity_issuer());
+                        .unit = std::string(name_of(owner.role)),
+                        .use = Use::is_a_participant,
+                        .validity = {validity.from, std::min(validity.until, until())}},
+                       *key, keys_->identity_issuer());
   const fs::path at = folder_, own = at / name;
   write_key_file(at / "ca" / "issued",
                  read_key_file(at / "ca" / "issued") + serial_of(*certificate) + " " + name + "\n");
   write_key_file(own / "private.pem", pem_of(*key));
-  write_key_file(
-      own / "permissions.p7s",
-      sign_document(permissions_document(subject_of(*certificate), rights_of(owner.role), validity),
-                    keys_->permissions_issuer()));
+  write_key_file(own / "permissions.p7s",
+                 sign_document(permissions_document(subject_of(*certificate), owner.role, validity),
+                               keys_->permissions_issuer()));
   write_key_file(own / "certificate.pem", pem_of(*certificate));
 }
 

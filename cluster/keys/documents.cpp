@@ -3,6 +3,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <span>
+
 namespace vindu {
 namespace {
 
@@ -21,8 +23,9 @@ std::string document(const std::string& kind, const std::string& content) {
 }
 
 /// Topics are "v1/frame": their rights outlive a version of the messages.
-std::string topics(const std::string& what, Topics which) {
+std::string topics(const std::string& what, Topics which, std::span<const Role> marks) {
   std::string names;
+  for (const Role role : marks) names += fmt::format("        <topic>{}</topic>\n", mark_of(role));
   for (int i = 0; i < kTopics; ++i)
     if (const auto topic = static_cast<Topic>(i); which.has(topic))
       names += fmt::format("        <topic>v*/{}</topic>\n", rules_of(topic).name);
@@ -64,11 +67,12 @@ std::string governance_document() {
                                             kDomains));
 }
 
-std::string permissions_document(const std::string& subject, const TopicRights& rights,
-                                 const Validity& validity) {
-  return document(
-      "permissions",
-      fmt::format(R"( <permissions>
+std::string permissions_document(const std::string& subject, Role role, const Validity& validity) {
+  const TopicRights rights = rights_of(role);
+  std::span<const Role> watched;
+  if (rights.reads.has(Topic::tile_status)) watched = kRoles;
+  return document("permissions",
+                  fmt::format(R"( <permissions>
   <grant name="vindu">
    <subject_name>{}</subject_name>
    <validity>
@@ -82,8 +86,9 @@ std::string permissions_document(const std::string& subject, const TopicRights& 
   </grant>
  </permissions>
 )",
-                  subject, time_text(validity.from), time_text(validity.until), kDomains,
-                  topics("publish", rights.writes), topics("subscribe", rights.reads)));
+                              subject, time_text(validity.from), time_text(validity.until),
+                              kDomains, topics("publish", rights.writes, {&role, 1}),
+                              topics("subscribe", rights.reads, watched)));
 }
 
 }  // namespace vindu

@@ -19,7 +19,6 @@ struct Validity {
 std::string governance_document();
 
 /// Of whoever has a certificate with this subject; `subject` as RFC 2253 writes it.
-std::string permissions_document(const std::string& subject, const TopicRights& rights,
-                                 const Validity& validity);
+std::string permissions_document(const std::string& subject, Role role, const Validity& validity);
 
 }  // namespace vindu

@@ -11,7 +11,6 @@
 
 #include "cluster/dds.h"
 #include "cluster/keys/authority.h"
-#include "cluster/keys/internal/openssl.h"
 #include "core/error.h"
 #include "tests/cluster/random_messages.h"
 #include "tests/cluster/waiting.h"
@@ -131,7 +130,7 @@ class Stranger : public Security {
  protected:
   Reception receive(const std::optional<Credentials>& credentials) {
     const Member master = join(kMaster), tile = join(tile_of("left")), console = join(kConsole);
-    const Topics hears = {Topic::frame, Topic::ready, Topic::tile_status, Topic::command};
+    const Topics hears = {Topic::ready, Topic::tile_status, Topic::command};
     const Member stranger =
         join(Role::master, "stranger", {Topic::frame, Topic::scene}, hears, credentials);
     Reception reception;
@@ -141,7 +140,7 @@ class Stranger : public Security {
       tile->publish(StatusMessage{.tile = "left", .incarnation = 1});
       console->publish(CommandMessage{.sender = "console", .request = 1, .argument = "secret"});
       show_frames(*master, *tile, 1, frames);
-      for (const Topic topic : {Topic::frame, Topic::tile_status, Topic::command})
+      for (const Topic topic : {Topic::tile_status, Topic::command})
         reception.read = reception.read || !stranger->take(topic).empty();
       for (const Presence& presence : console->take<Presence>())
         reception.present.push_back(presence.who.name);
@@ -184,21 +183,6 @@ TEST_F(Stranger, IsNobodyWithPermissionsOfAnotherAuthority) {
   stolen.governance = forged.governance;
   stolen.permissions = forged.permissions;
   expect_nobody(stolen);
-}
-
-/// Signed by somebody whom the wall's authority has certified: a tile.
-TEST_F(Stranger, IsNobodyWithPermissionsThatATileSigned) {
-  Credentials tile = key_of(tile_of("right"));
-  const auto certificate = internal::certificate_from(tile.certificate, "");
-  const auto key = internal::key_from(tile.private_key, "");
-  const internal::Issuer himself{*certificate, *key};
-  tile.permissions_ca = tile.certificate;
-  tile.governance = internal::sign_document(governance_document(), himself);
-  tile.permissions =
-      internal::sign_document(permissions_document(internal::subject_of(*certificate),
-                                                   rights_of(Role::master), for_days(100)),
-                              himself);
-  expect_nobody(tile);
 }
 
 /// He keeps his own, old list of revoked certificates.
