@@ -1,19 +1,26 @@
 // A wall with keys, over real sockets: who has one takes part as his role may, who has none neither
 // reads nor writes. Strangers are real DDS participants of the same wall's name, with the keys that
 // a stranger can have.
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
 #include <thread>
 
 #include "cluster/dds.h"
 #include "cluster/keys/authority.h"
 #include "core/error.h"
+#include "core/random.h"
 #include "tests/cluster/random_messages.h"
 #include "tests/cluster/waiting.h"
+#include "tests/wall/children.h"
 
 namespace vindu {
 namespace {
@@ -60,7 +67,7 @@ class Security : public ::testing::Test {
 
   Member join(Role role, const std::string& name, Topics publishes, Topics subscribes,
               std::optional<Credentials> credentials) const {
-    DdsSettings settings{.name = wall_};
+    DdsSettings settings{.name = wall_, .domain = domain_};
     settings.credentials = std::move(credentials);
     Member member{std::make_unique<DdsTransport>(settings)};
     member.bus = member.transport->join({{role, name, "here", "0.1"}, publishes, subscribes});
@@ -77,6 +84,7 @@ class Security : public ::testing::Test {
 
   std::filesystem::path folder_ = new_folder();
   std::string wall_ = "security" + std::to_string(getpid());
+  int domain_ = 20 + getpid() % 60;  // ports of its own: some of these tests flood them
   Authority authority_;
 };
 
@@ -149,6 +157,11 @@ class Stranger : public Security {
     reception.wrote = any_of_epoch(frames, 666);
     return reception;
   }
+  std::string late_says() const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / "late.log").rdbuf();
+    return text.str();
+  }
   void expect_nobody(const std::optional<Credentials>& credentials) {
     const Reception reception = receive(credentials);
     EXPECT_FALSE(reception.wrote);
@@ -194,6 +207,46 @@ TEST_F(Stranger, IsNobodyWithARevokedKey) {
   expect_nobody(stolen);
 }
 
+/// His clock is half a day late, so that his own DDS finds nothing wrong with his key.
+TEST_F(Stranger, IsNobodyWithAKeyThatEndedWhateverHisClockSays) {
+  const Member master = join(kMaster), tile = join(tile_of("left")), console = join(kConsole);
+  const auto now = system_clock::now();
+  std::set<std::string> present;
+  for (const int hours_left : {24, -6}) {
+    authority_.issue(kMaster, {now - std::chrono::days(30), now + std::chrono::hours(hours_left)});
+    const testing::Child late({VINDU_LATE_PEER, wall_, std::to_string(domain_), keys(), "12"},
+                              folder_ / "late.log");
+    std::vector<FrameMessage> frames;
+    for (int i = 0; i < 300 && !any_of_epoch(frames, 666); ++i) {
+      show_frames(*master, *tile, 1, frames);
+      for (const Presence& presence : console->take<Presence>()) present.insert(presence.who.name);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_THAT(late_says(), HasSubstr("joined"));
+    EXPECT_EQ(any_of_epoch(frames, 666), hours_left > 0);
+  }
+  EXPECT_THAT(present, Contains("left"));
+}
+
+/// To the ports of the wall's participants, what begins as a packet of theirs does.
+void flood_ports(int domain, const std::atomic<bool>& enough) {
+  const int sender = socket(AF_INET, SOCK_DGRAM, 0);
+  Random random(7);
+  while (!enough)
+    for (int port = 0; port < 30; ++port) {
+      std::string packet("RTPS\x02\x04\x01\x10");
+      const int size = static_cast<int>(random.uniform(0, 1000));
+      for (int i = 0; i < size; ++i) packet += static_cast<char>(random.uniform(0, 256));
+      sockaddr_in to{};
+      to.sin_family = AF_INET;
+      to.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * domain + port));
+      to.sin_addr.s_addr = htonl(port < 2 ? 0xefff0001 : INADDR_LOOPBACK);  // or 239.255.0.1
+      sendto(sender, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to),
+             sizeof to);
+    }
+  close(sender);
+}
+
 TEST_F(Stranger, WhoFloodsTheWallStopsNothing) {
   const Member master = join(kMaster), tile = join(tile_of("left"));
   const Member stranger =
@@ -206,12 +259,14 @@ TEST_F(Stranger, WhoFloodsTheWallStopsNothing) {
         stranger->publish(SceneMessage{.revision = i, .path = std::string(900, 'x')});
       }
   });
+  std::thread ports([&] { flood_ports(domain_, enough); });
   std::vector<FrameMessage> frames;
 
   show_frames(*master, *tile, 200, frames);
 
   enough = true;
   flood.join();
+  ports.join();
   EXPECT_FALSE(any_of_epoch(frames, 666));
   EXPECT_THAT(tile->take<SceneMessage>(), IsEmpty());
 }
@@ -220,6 +275,12 @@ TEST_F(Security, ATileMayNotActAsMasterNorAsConsole) {
   for (const Topic topic : {Topic::frame, Topic::scene, Topic::command, Topic::pose, Topic::answer})
     EXPECT_THAT([&] { join(Role::tile, "left", {topic}, {}, key_of(tile_of("left"))); },
                 ThrowsMessage<Error>(HasSubstr("the key of this tile does not allow")));
+}
+
+TEST_F(Security, AKeyThatEndedIsRefusedByDdsItself) {
+  authority_.issue(kMaster, {system_clock::now() - std::chrono::days(9),
+                             system_clock::now() - std::chrono::days(1)});
+  EXPECT_THROW(join(Role::master, "master", {}, {}, read_credential_files(keys(), kMaster)), Error);
 }
 
 TEST_F(Security, AKeyThatEndsIsHeardNoMore) {

@@ -22,6 +22,14 @@ constexpr std::uintmax_t kLongestFile = 1 << 20;
   throw Error({what + " (" + std::strerror(errno) + ")", file.string(), remedy});
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  if (folder.empty() || fs::exists(folder, error)) return;
+  make_folder(folder.parent_path());
+  if (mkdir(folder.c_str(), 0700) != 0)
+    fail(folder, "cannot be made", "choose another folder (--out)");
+}
+
 void write_all(int file, const std::string& text, const fs::path& name) {
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t written = ::write(file, text.data() + done, text.size() - done);
@@ -45,10 +53,8 @@ std::string read_key_file(const fs::path& file) {
 }
 
 void write_key_file(const fs::path& file, const std::string& text) {
+  make_folder(file.parent_path());
   std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (chmod(file.parent_path().c_str(), 0700) != 0)
-    fail(file.parent_path(), "cannot be made", "choose another folder (--out)");
   const fs::path part = file.string() + ".part";
   fs::remove(part, error);
   const int handle = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
