@@ -65,7 +65,7 @@ std::string interfaces() {
 /// Cyclone's domain in this process. Those are numbered per process; what other processes see is
 /// the external number in the configuration.
 DdsEntity open_domain(const DdsSettings& settings) {
-  internal::log_what_dds_says();
+  internal::log_what_dds_says(settings.credentials.has_value());
   const char* const environment = std::getenv("CYCLONEDDS_URI");
   const std::string xml = dds_configuration(settings, environment ? environment : "");
   for (dds_domainid_t id = 0; id < kMostDomains; ++id) {

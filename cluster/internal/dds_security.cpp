@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <filesystem>
 #include <map>
@@ -36,19 +37,25 @@ std::string plugin_path(const std::string& name) {
 }
 
 struct Kinds {
+  std::atomic<bool> with_keys = false;
   std::mutex mutex;
   std::map<std::pair<std::string_view, std::uint32_t>, unsigned> counts;  // by place in its source
 };
 
 void hear_dds(void* argument, const dds_log_data_t* line) {
   Kinds& kinds = *static_cast<Kinds*>(argument);
+  std::string text(line->message);
+  if (text.starts_with("Remote secure participant")) {
+    // Of friends, too, whom a process with keys hears of before it has joined itself.
+    if (kinds.with_keys) return;
+    text = "somebody with a key was refused: this process has none ([cluster] keys)";
+  }
   unsigned count = 0;
   {
     const std::scoped_lock lock(kinds.mutex);
     count = ++kinds.counts[{line->function ? line->function : "", line->line}];
   }
   if (!std::has_single_bit(count)) return;
-  std::string text(line->message);
   std::ranges::replace(text, '\n', ' ');  // whatever comes of the wire: one line
   while (text.ends_with(' ')) text.pop_back();
   if (count > 1) text += " (" + std::to_string(count) + " of this kind so far)";
@@ -79,9 +86,10 @@ void add_credentials(dds_qos_t* participant, const Credentials& credentials) {
   set("dds.sec.access.permissions", data + credentials.permissions);
 }
 
-void log_what_dds_says() {
+void log_what_dds_says(bool with_keys) {
   // One for the process, as Cyclone's sink is, and never destroyed: its threads may end later.
   static Kinds* const kinds = new Kinds;
+  if (with_keys) kinds->with_keys = true;
   dds_set_log_sink(&hear_dds, kinds);
 }
 

@@ -165,6 +165,7 @@ TEST(Site, IsOfOneMachineUnlessAMasterIsNamed) {
   const Site alone = site_of(kGrid);
   EXPECT_EQ(alone.cluster.name, "wall");
   EXPECT_EQ(alone.cluster.interface, "lo");
+  EXPECT_EQ(alone.cluster.keys, "");
   EXPECT_EQ(alone.cluster.lock, FrameLock::barrier);
   EXPECT_EQ(site_of(kGrid + "[cluster]\nmaster = \"node0\"\n").cluster.interface, "");
 }
@@ -173,7 +174,7 @@ TEST(Site, ReadsHowItsProcessesFindEachOther) {
   const ClusterConfig cluster =
       site_of(kGrid +
               "[cluster]\nname = \"left\"\nmaster = \"10.77.0.1\"\ninterface = \"eth1\"\n"
-              "multicast = false\ndomain = 7\nlock = \"timed\"\n")
+              "multicast = false\ndomain = 7\nlock = \"timed\"\nkeys = \"site/keys\"\n")
           .cluster;
   EXPECT_EQ(cluster.name, "left");
   EXPECT_EQ(cluster.master, "10.77.0.1");
@@ -181,6 +182,7 @@ TEST(Site, ReadsHowItsProcessesFindEachOther) {
   EXPECT_FALSE(cluster.multicast);
   EXPECT_EQ(cluster.domain, 7);
   EXPECT_EQ(cluster.lock, FrameLock::timed);
+  EXPECT_TRUE(cluster.keys.ends_with("site/keys"));
 }
 
 TEST(Placement, IsKnownByItsName) {
