@@ -136,12 +136,20 @@ std::vector<KeyOwner> owners_at(const HostPlan& plan) {
   return owners;
 }
 
-/// A host's own keys, checked, in a folder of links of its own.
+/// A host's own keys, checked, in a folder of links of its own. One whose key does not count any
+/// more is left behind with what is public, so that the others hear of it.
 void fill_keys(Stage& stage, const HostPlan& plan, const Site& site, const fs::path& to) {
   std::set<std::string> files;
   for (const KeyOwner& owner : owners_at(plan)) {
-    read_credentials(site.cluster.keys, owner);
-    for (const std::string& file : files_of(owner)) files.insert(file);
+    const KeyState state = inspect_key(site.cluster.keys, owner).state;
+    const bool ended = state == KeyState::revoked || state == KeyState::expired;
+    if (ended)
+      log_warning("deploy", fmt::format("the key {} is {}: {} does not get it", name_of(owner),
+                                        name_of(state), plan.host));
+    else
+      read_credentials(site.cluster.keys, owner);
+    for (const std::string& file : files_of(owner))
+      if (!ended || file.find('/') == std::string::npos) files.insert(file);
   }
   for (const std::string& file : files) stage.add(fs::path(site.cluster.keys) / file, to / file);
 }

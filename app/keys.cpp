@@ -90,7 +90,7 @@ void print_next(const KeysCommand& command, const Site& site, const std::string&
 
 int list(const std::string& folder, const std::vector<KeyOwner>& owners) {
   bool good = true;
-  fmt::print("{}\n  {:<24}{:<12}\n", folder, "KEY", "UNTIL");
+  fmt::print("{}\n  {:<24}{}\n", folder, "KEY", "UNTIL");
   for (const KeyOwner& owner : owners) {
     const KeyInfo key = inspect_key(folder, owner);
     print_key(key, std::string(name_of(key.state)));
@@ -119,7 +119,7 @@ void make(const KeysCommand& command, const std::string& folder,
   Authority authority(folder);
   const auto now = system_clock::now();
   const Validity validity{now - std::chrono::days(1), now + std::chrono::days(command.days)};
-  fmt::print("{}{}\n  {:<24}{:<12}\n", folder, authority.is_new() ? ": a new authority" : "", "KEY",
+  fmt::print("{}{}\n  {:<24}{}\n", folder, authority.is_new() ? ": a new authority" : "", "KEY",
              "UNTIL");
   for (const KeyOwner& owner : owners) {
     const KeyState before = inspect_key(folder, owner).state;

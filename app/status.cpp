@@ -59,10 +59,10 @@ void print(const StatusCommand& command, const WallNow& wall) {
   std::fflush(stdout);
 }
 
-/// Where neither a master nor any tile is heard.
+/// Where no frame and no tile is heard. A master may be known to be there: names are no secret.
 void say_why_nobody(const WallNow& wall, const Site& site) {
   const auto heard = [](const TileNow& tile) { return tile.state != "missing"; };
-  if (wall.master || std::ranges::any_of(wall.tiles, heard)) return;
+  if (wall.frame > 0 || std::ranges::any_of(wall.tiles, heard)) return;
   log_info("status",
            site.cluster.keys.empty()
                ? "nobody is heard; a wall with keys is heard with them alone: "

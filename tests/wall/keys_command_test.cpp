@@ -57,7 +57,7 @@ TEST_F(KeysCommand, MakesAWallThatIsHeardByNobodyWithoutAKey) {
   const ProcessResult console = testing::vindu({"status", "--wall", wall_file_});
 
   EXPECT_EQ(stranger.exit_code, 1);
-  EXPECT_THAT(stranger.out, AllOf(HasSubstr("no master"), Not(HasSubstr("ready"))));
+  EXPECT_THAT(stranger.out, AllOf(HasSubstr("missing"), Not(HasSubstr("in the frame lock"))));
   EXPECT_THAT(stranger.err, HasSubstr("a wall with keys is heard with them alone"));
   EXPECT_THAT(console.out, AllOf(HasSubstr("master on"), HasSubstr("of 2 tiles")));
   EXPECT_EQ(testing::vindu({"stop", "--wall", open_wall, "--timeout", "1"}).exit_code, 1);
@@ -148,12 +148,24 @@ TEST_F(Deploy, BringsEachHostItsOwnKeysAlone) {
                                 HasSubstr("# tile-1-0: keys/revoked.pem")));
 }
 
+TEST_F(Deploy, TellsTheOthersOfARevokedKeyAndBringsItNoMore) {
+  keys({"--revoke", "tile-0-0"});
+
+  const ProcessResult result = deploy();
+
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("the key hosts/tile-0-0 is revoked: tile-0-0 does not get it"));
+  EXPECT_THAT(result.out, AllOf(HasSubstr("# tile-1-0: keys/revoked.pem"),
+                                HasSubstr("# tile-1-0: keys/hosts/tile-1-0/private.pem"),
+                                Not(HasSubstr("keys/hosts/tile-0-0/"))));
+}
+
 TEST_F(Deploy, LeavesTheKeysOutOfAModelsFolder) {
   write("model.obj", "v 0 0 0\n");
   EXPECT_EQ(deploy({path("model.obj")}).exit_code, 0);
 
-  fs::create_directory(path("models"));
-  fs::create_directory_symlink(path("keys"), path("models/textures"));
+  fs::create_directories(path("models/more"));
+  fs::create_directory_symlink(path("keys"), path("models/more/textures"));
   write("models/model.obj", "v 0 0 0\n");
   const ProcessResult result = deploy({path("models/model.obj")});
 
