@@ -33,5 +33,6 @@ void add_stop(CLI::App& parent, Action& chosen);
 void add_restart(CLI::App& parent, Action& chosen);
 void add_logs(CLI::App& parent, Action& chosen);
 void add_deploy(CLI::App& parent, Action& chosen);
+void add_keys(CLI::App& parent, Action& chosen);
 
 }  // namespace vindu::app

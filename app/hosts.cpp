@@ -3,11 +3,14 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <list>
 #include <memory>
+#include <set>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/launch.h"
+#include "cluster/keys/key_folder.h"
 #include "cluster/launch/words.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -53,6 +56,7 @@ class Stage {
   void add(const fs::path& from, const fs::path& to) {
     if (!fs::exists(from)) throw Error({"is not there", from.string(), "name what is"});
     fs::create_directories((folder_ / to).parent_path());
+    fs::permissions((folder_ / to).parent_path(), fs::perms::owner_all);
     fs::create_symlink(fs::canonical(from), folder_ / to);
   }
   /// MANIFEST: the SHA-256 of every file.
@@ -63,6 +67,14 @@ class Stage {
                      "sh", folder_.string()});
     if (sums.exit_code != 0)
       throw Error({sums.err.empty() ? "cannot be read" : sums.err.front(), folder_.string(), ""});
+  }
+  /// Throws Error where the folder would come along somewhere below a link.
+  void expect_without(const fs::path& secret) const {
+    const ProgramResult found =
+        run_program({"find", "-L", folder_.string(), "-samefile", secret.string()});
+    if (found.out.empty()) return;
+    throw Error({"would come along to every host, with the wall's private keys", secret.string(),
+                 "put the model into a folder of its own"});
   }
   std::string folder() const { return folder_.string(); }
 
@@ -76,11 +88,13 @@ bool is_whole(const fs::path& model) {
   return kind == ".glb" || kind == ".ply" || kind == ".stl";
 }
 
-void add_model(Stage& stage, const fs::path& model, const fs::path& to) {
+void add_model(Stage& stage, const fs::path& model, const fs::path& to, const fs::path& keys) {
   if (is_whole(model)) return stage.add(model, to);
   log_info("deploy", "the folder of " + model.string() + " comes along: its textures may be there");
+  std::error_code no_such_keys;
   for (const auto& entry : fs::directory_iterator(fs::absolute(model).parent_path()))
-    stage.add(entry.path(), to.parent_path() / entry.path().filename());
+    if (!fs::equivalent(entry.path(), keys, no_such_keys))
+      stage.add(entry.path(), to.parent_path() / entry.path().filename());
 }
 
 void fill(Stage& stage, const HostsCommand& command, const Site& site) {
@@ -92,14 +106,52 @@ void fill(Stage& stage, const HostsCommand& command, const Site& site) {
   stage.add(wall, "wall.toml");
   if (fs::exists(folder / "calibration")) stage.add(folder / "calibration", "calibration");
   if (!command.model.empty())
-    add_model(stage, command.model, "scene" / fs::path(command.model).filename());
+    add_model(stage, command.model, "scene" / fs::path(command.model).filename(),
+              site.cluster.keys);
   if (site.scene.model.empty()) return;
   const fs::path model = fs::absolute(site.scene.model), to = model.lexically_relative(folder);
   if (to.empty() || *to.begin() == "..")
     log_warning("deploy", model.string() + " lies outside of the wall file's folder: " +
                               "put it at this path on every host");
   else if (!fs::exists(fs::path(stage.folder()) / to))
-    add_model(stage, model, to);
+    add_model(stage, model, to, site.cluster.keys);
+}
+
+/// Where the wall file has its keys, from its own folder on; the same on a host. Throws Error where
+/// that is no folder below it.
+fs::path key_folder_on_hosts(const HostsCommand& command, const Site& site) {
+  const fs::path wall = fs::absolute(command.wall_file).parent_path().lexically_normal();
+  const fs::path keys = fs::absolute(site.cluster.keys).lexically_normal().lexically_relative(wall);
+  if (keys.empty() || keys == "." || *keys.begin() == "..")
+    throw Error({"is no folder below the wall file's", site.cluster.keys,
+                 "put the keys beside the wall file: [cluster] keys = \"keys\""});
+  return keys;
+}
+
+/// What this host takes part as.
+std::vector<KeyOwner> owners_at(const HostPlan& plan) {
+  std::vector<KeyOwner> owners;
+  if (plan.master) owners.push_back({Role::master});
+  if (!plan.tiles.empty()) owners.push_back({Role::tile, plan.host});
+  return owners;
+}
+
+/// A host's own keys, checked, in a folder of links of its own. One whose key does not count any
+/// more is left behind with what is public, so that the others hear of it.
+void fill_keys(Stage& stage, const HostPlan& plan, const Site& site, const fs::path& to) {
+  std::set<std::string> files;
+  for (const KeyOwner& owner : owners_at(plan)) {
+    const KeyState state = inspect_key(site.cluster.keys, owner).state;
+    const bool ended = state == KeyState::revoked || state == KeyState::expired;
+    if (ended)
+      log_warning("deploy", fmt::format("the key {} is {}: {} does not get it", name_of(owner),
+                                        name_of(state), plan.host));
+    else
+      read_credentials(site.cluster.keys, owner);
+    for (const std::string& file : files_of(owner))
+      if (!ended || file.find('/') == std::string::npos) files.insert(file);
+  }
+  for (const std::string& file : files) stage.add(fs::path(site.cluster.keys) / file, to / file);
 }
 
 /// After the copy: every file is what it is here.
@@ -126,19 +178,40 @@ std::vector<HostReport> followed(std::vector<HostReport> reports, const std::str
   return reports;
 }
 
+/// The command lines, and what is one host's alone.
+int print_copies(const std::vector<HostFiles>& hosts, const Stage& common) {
+  for (const HostFiles& files : hosts) {
+    fmt::print("{}\n", shell_words(rsync_words(files)));
+    for (const std::string& folder : files.folders) {
+      if (folder == common.folder()) continue;
+      for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (!entry.is_directory())
+          fmt::print("# {}: {}\n", files.host, entry.path().lexically_relative(folder).string());
+    }
+  }
+  return 0;
+}
+
 int deploy(const HostsCommand& command) {
   const Site site = site_with_hosts(command);
-  const auto hosts = names_of(choose_hosts(site, command.hosts));
+  const auto plans = choose_hosts(site, command.hosts);
   Stage stage;
   fill(stage, command, site);
+  std::list<Stage> own;
+  std::vector<HostFiles> files;
+  for (const HostPlan& plan : plans) files.push_back({plan.host, {stage.folder()}});
+  if (!site.cluster.keys.empty()) {
+    const fs::path to = key_folder_on_hosts(command, site);
+    stage.expect_without(site.cluster.keys);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      fill_keys(own.emplace_back(), plans[i], site, to);
+      files[i].folders.push_back(own.back().folder());
+    }
+  }
   stage.seal();
   const std::string check = check_script(sha256_of(stage.folder() + "/MANIFEST"));
-  if (command.dry_run) {
-    for (const std::string& host : hosts)
-      fmt::print("{}\n", shell_words(rsync_words(host, stage.folder())));
-    return 0;
-  }
-  return conclude(followed(copy_to_hosts(hosts, stage.folder()), check), "have it");
+  if (command.dry_run) return print_copies(files, stage);
+  return conclude(followed(copy_to_hosts(files), check), "have it");
 }
 
 int restart(const HostsCommand& command) {

@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   vindu::app::add_restart(app, chosen);
   vindu::app::add_logs(app, chosen);
   vindu::app::add_deploy(app, chosen);
+  vindu::app::add_keys(app, chosen);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

@@ -81,7 +81,7 @@ class MasterRun {
   MasterRun(const MasterCommand& command, const Site& site)
       : site_(site),
         room_(site, clock_, walking_room(command.emulation, command.seed, clock_.now())),
-        transport_(dds_settings_of(site.cluster)),
+        transport_(network_of(site, Role::master)),
         bus_(transport_.join({{.role = Role::master,
                                .name = "master",
                                .host = host_name(),

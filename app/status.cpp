@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -11,6 +12,7 @@
 #include "app/wall_console.h"
 #include "cluster/dds.h"
 #include "cluster/wall_view.h"
+#include "core/log.h"
 
 namespace vindu::app {
 namespace {
@@ -57,10 +59,21 @@ void print(const StatusCommand& command, const WallNow& wall) {
   std::fflush(stdout);
 }
 
+/// Where no frame and no tile is heard. A master may be known to be there: names are no secret.
+void say_why_nobody(const WallNow& wall, const Site& site) {
+  const auto heard = [](const TileNow& tile) { return tile.state != "missing"; };
+  if (wall.frame > 0 || std::ranges::any_of(wall.tiles, heard)) return;
+  log_info("status",
+           site.cluster.keys.empty()
+               ? "nobody is heard; a wall with keys is heard with them alone: "
+                 "[cluster] keys in the wall file"
+               : "nobody is heard who has a key of the same authority as " + site.cluster.keys);
+}
+
 int status(const StatusCommand& command) {
   const Site site = load_site(command.wall_file);
   const StopSignals signals;
-  DdsTransport transport(dds_settings_of(site.cluster));
+  DdsTransport transport(network_of(site, Role::console));
   const Participant self = this_console();
   const auto bus = transport.join({self, {}, WallView::hears()});
   WallView view(tile_names(site.wall), self);
@@ -70,6 +83,7 @@ int status(const StatusCommand& command) {
     view.poll(*bus, clock.now());
     if (clock.now() - shown < kListen) continue;
     print(command, view.now());
+    if (!command.watch) say_why_nobody(view.now(), site);
     shown = clock.now();
     if (!command.watch) break;
   }

@@ -11,6 +11,7 @@
 #include "app/service.h"
 #include "app/shown_file.h"
 #include "app/stop_signals.h"
+#include "app/wall_console.h"
 #include "cluster/dds.h"
 #include "cluster/wall_tile.h"
 #include "core/error.h"
@@ -144,7 +145,7 @@ class TileRun {
   TileRun(const TileCommand& command, const Site& site)
       : site_(site),
         part_(part_of(site.wall, command.tiles)),
-        transport_(dds_settings_of(site.cluster)),
+        transport_(network_of(site, Role::tile, command.tiles.front())),
         bus_(transport_.join({{.role = Role::tile,
                                .name = command.tiles.front(),
                                .host = host_name(),

@@ -13,6 +13,7 @@
 #include "app/emulation.h"
 #include "app/pose_lines.h"
 #include "app/stop_signals.h"
+#include "app/wall_console.h"
 #include "cluster/dds.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -81,7 +82,7 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
 class Publisher {
  public:
   Publisher(const Site& site, int strength)
-      : transport_(dds_settings_of(site.cluster)),
+      : transport_(network_of(site, Role::tracker)),
         bus_(transport_.join({{.role = Role::tracker,
                                .name = "tracker-" + host_name(),
                                .host = host_name(),

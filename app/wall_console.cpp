@@ -2,9 +2,22 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "app/common.h"
+#include "cluster/keys/key_folder.h"
 
 namespace vindu::app {
+
+DdsSettings network_of(const Site& site, Role role, const std::string& tile) {
+  DdsSettings settings = dds_settings_of(site.cluster);
+  if (site.cluster.keys.empty()) return settings;
+  KeyOwner owner{role};
+  const auto own = std::ranges::find(site.wall.tiles, tile, &Tile::name);
+  if (own != site.wall.tiles.end()) owner.host = own->host;
+  settings.credentials = read_credentials(site.cluster.keys, owner);
+  return settings;
+}
 
 Participant this_console() {
   return {.role = Role::console,

@@ -25,7 +25,7 @@ struct ControlCommand {
 
 int ask(const ControlCommand& command, Verb verb, const std::string& argument) {
   const Site site = load_site(command.wall_file);
-  DdsTransport transport(dds_settings_of(site.cluster));
+  DdsTransport transport(network_of(site, Role::console));
   const AnswerMessage answer =
       ask_wall(transport, this_console(), {verb, argument}, from_seconds(command.timeout_s));
   expect_done(answer);

@@ -15,12 +15,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "cluster/cdr.h"
 #include "cluster/dds.h"
+#include "cluster/keys/authority.h"
 
 namespace vindu {
 namespace {
@@ -115,7 +117,7 @@ Carrier over_dds(const DdsSettings& settings) {
   const auto join = [settings](const char* name, Topics publishes, Topics subscribes) {
     auto transport = std::make_shared<DdsTransport>(settings);
     std::shared_ptr<Bus> bus =
-        transport->join({{Role::tracker, name, "here", "bench"}, publishes, subscribes});
+        transport->join({{Role::master, name, "here", "bench"}, publishes, subscribes});
     return std::pair(transport, bus);
   };
   return {[join]() -> Send {
@@ -205,11 +207,24 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-void pose_fan_out(benchmark::State& state) {
+/// A key that may write and read poses.
+Credentials new_credentials() {
+  std::string folder = std::filesystem::temp_directory_path() / "vindu_bench_XXXXXX";
+  if (!mkdtemp(folder.data())) std::abort();
+  const auto now = std::chrono::system_clock::now();
+  Authority(folder).issue({Role::master}, {now - std::chrono::days(1), now + std::chrono::days(1)});
+  Credentials credentials = read_credential_files(folder, {Role::master});
+  std::filesystem::remove_all(folder);
+  return credentials;
+}
+
+void pose_fan_out(benchmark::State& state, bool with_keys) {
   const auto receivers = static_cast<int>(state.range(0));
   const std::size_t size = to_cdr(pose_of({})).size();
   const Carrier udp{[size] { return udp_sender(size); }, udp_receiver};
-  const Carrier dds = over_dds({.name = "bench" + std::to_string(getpid())});
+  DdsSettings settings{.name = "bench" + std::to_string(getpid())};
+  if (with_keys) settings.credentials = new_credentials();
+  const Carrier dds = over_dds(settings);
   Latencies bus, raw;
   for (auto _ : state)
     for (int round = 0; round < kRounds; ++round) {
@@ -226,7 +241,20 @@ void pose_fan_out(benchmark::State& state) {
   state.counters["bus_conflated"] = bus.missed;
   state.counters["udp_missed"] = raw.missed;
 }
-BENCHMARK(pose_fan_out)->Arg(1)->Arg(2)->Arg(7)->Arg(14)->Arg(28)->Iterations(1)->UseRealTime();
+BENCHMARK_CAPTURE(pose_fan_out, open, false)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(7)
+    ->Arg(14)
+    ->Arg(28)
+    ->Iterations(1)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(pose_fan_out, with_keys, true)
+    ->Arg(1)
+    ->Arg(7)
+    ->Arg(28)
+    ->Iterations(1)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace vindu

@@ -16,8 +16,10 @@ constexpr auto kRepeat = milliseconds(250);
     throw Error(
         {"no master is found", "the wall",
          "start one (vindu launch), or name the wall file that it was started with (--wall)"});
-  throw Error({"does not answer", "the master on " + master->host,
-               "look at its lines (vindu logs), or start it again (vindu restart)"});
+  throw Error(
+      {"does not answer", "the master on " + master->host,
+       "look at its lines (vindu logs), or start it again (vindu restart); a wall with keys "
+       "answers to them alone ([cluster] keys in the wall file)"});
 }
 
 }  // namespace

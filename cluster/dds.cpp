@@ -3,6 +3,7 @@
 #include <ifaddrs.h>
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <cstdlib>
@@ -10,7 +11,9 @@
 #include <set>
 
 #include "cluster/internal/dds_entity.h"
+#include "cluster/internal/dds_security.h"
 #include "cluster/internal/participant_text.h"
+#include "cluster/internal/role_marks.h"
 #include "cluster/internal/signal.h"
 #include "cluster/internal/wire_types.h"
 
@@ -62,6 +65,7 @@ std::string interfaces() {
 /// Cyclone's domain in this process. Those are numbered per process; what other processes see is
 /// the external number in the configuration.
 DdsEntity open_domain(const DdsSettings& settings) {
+  internal::log_what_dds_says(settings.credentials.has_value());
   const char* const environment = std::getenv("CYCLONEDDS_URI");
   const std::string xml = dds_configuration(settings, environment ? environment : "");
   for (dds_domainid_t id = 0; id < kMostDomains; ++id) {
@@ -76,6 +80,18 @@ DdsEntity open_domain(const DdsSettings& settings) {
   throw Error({.what = "the network cannot be joined",
                .where = "interface " + settings.interface,
                .remedy = "there are: " + interfaces()});
+}
+
+/// Throws Error where a key's permissions forbid it.
+dds_entity_t expect_allowed(dds_entity_t entity, Topic topic, const Participant& self) {
+  if (entity == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+    throw Error({.what = "the key of this " + std::string(name_of(self.role)) +
+                         " does not allow it to take part in the topic " +
+                         std::string(rules_of(topic).name),
+                 .where = self.name,
+                 .remedy = "make it anew with this version: vindu keys --renew"});
+  assert(entity > 0);
+  return entity;
 }
 
 /// Samples of one topic as Cyclone writes them: flat structs in our own memory.
@@ -107,14 +123,17 @@ class SampleBuffer {
 
 class DdsTransport::Domain {
  public:
-  explicit Domain(const DdsSettings& settings) : entity_(open_domain(settings)) {
+  explicit Domain(const DdsSettings& settings)
+      : credentials_(settings.credentials), entity_(open_domain(settings)) {
     dds_domainid_t id = 0;
     dds_get_domainid(entity_.get(), &id);
     id_ = id;
   }
   dds_domainid_t id() const { return id_; }
+  const std::optional<Credentials>& credentials() const { return credentials_; }
 
  private:
+  std::optional<Credentials> credentials_;
   DdsEntity entity_;
   dds_domainid_t id_ = 0;
 };
@@ -147,26 +166,33 @@ class DdsTransport::Member final : public Bus {
   std::vector<Message> take_presence();
   void take_participants(std::vector<Message>& changes);
   void take_silences(std::vector<Message>& changes);
+  void believe(std::vector<Message>& changes);
+  void joined(dds_instance_handle_t id, const Participant& who, std::vector<Message>& changes);
   void arrived(dds_instance_handle_t id, const dds_qos_t* qos, std::vector<Message>& changes);
 
+  const bool with_keys_;
   const Membership membership_;
   Signal signal_;
   std::array<Wake, kTopics> wakes_;
   std::array<dds_entity_t, kTopics> topics_{};
   std::array<dds_entity_t, kTopics> writers_{};
   std::array<Reader, kTopics> readers_;
+  std::atomic<unsigned> unsent_ = 0;
   dds_entity_t participants_reader_ = 0;
-  std::map<dds_instance_handle_t, Participant> present_;
+  internal::RoleMarks marks_;
+  std::map<dds_instance_handle_t, Participant> claims_, present_;
   std::set<std::string> alive_;  // tiles
   DdsEntity participant_;        // the last member, so the first to go: no listener outlives it
 };
 
 DdsTransport::Member::Member(const Domain& domain, const Membership& membership)
-    : membership_(membership) {
+    : with_keys_(domain.credentials().has_value()), membership_(membership) {
   const std::string text = internal::text_of(membership.self);
   const internal::DdsQos qos = internal::make_dds_qos();
   dds_qset_userdata(qos.get(), text.data(), text.size());
+  if (domain.credentials()) internal::add_credentials(qos.get(), *domain.credentials());
   participant_ = {dds_create_participant(domain.id(), qos.get(), nullptr), "a participant"};
+  if (with_keys_) marks_.show(participant_.get(), membership.self.role);
   for (int i = 0; i < kTopics; ++i) {
     const auto topic = static_cast<Topic>(i);
     wakes_[i] = {&signal_, topic};
@@ -186,8 +212,7 @@ dds_entity_t DdsTransport::Member::topic_entity(Topic topic) {
       "v" + std::to_string(membership_.self.protocol) + "/" + std::string(rules_of(topic).name);
   entity =
       dds_create_topic(participant_.get(), &descriptor_of(topic), name.c_str(), nullptr, nullptr);
-  assert(entity > 0);
-  return entity;
+  return expect_allowed(entity, topic, membership_.self);
 }
 
 void DdsTransport::Member::open_writer(Topic topic) {
@@ -195,8 +220,7 @@ void DdsTransport::Member::open_writer(Topic topic) {
   if (rules_of(topic).exclusive) dds_qset_ownership_strength(qos.get(), membership_.strength);
   const dds_entity_t writer =
       dds_create_writer(participant_.get(), topic_entity(topic), qos.get(), nullptr);
-  assert(writer > 0);
-  writers_[static_cast<std::size_t>(topic)] = writer;
+  writers_[static_cast<std::size_t>(topic)] = expect_allowed(writer, topic, membership_.self);
 }
 
 dds_entity_t DdsTransport::Member::open_reader(dds_entity_t of, const dds_qos_t* qos, Topic wakes) {
@@ -207,8 +231,7 @@ dds_entity_t DdsTransport::Member::open_reader(dds_entity_t of, const dds_qos_t*
     wake.signal->raise(wake.topic);
   });
   const dds_entity_t reader = dds_create_reader(participant_.get(), of, qos, listener.get());
-  assert(reader > 0);
-  return reader;
+  return expect_allowed(reader, wakes, membership_.self);
 }
 
 /// Who is there comes from DDS' own list of participants; that a tile is silent, from a second
@@ -218,6 +241,16 @@ void DdsTransport::Member::open_presence() {
   reader.buffer = std::make_unique<SampleBuffer>(descriptor_of(Topic::tile_status));
   reader.handle = open_reader(topic_entity(Topic::tile_status), qos_of(Topic::tile_status).get(),
                               Topic::presence);
+  if (with_keys_) {
+    const internal::DdsListener news =
+        internal::make_dds_listener(&wakes_[static_cast<std::size_t>(Topic::presence)]);
+    dds_lset_subscription_matched(
+        news.get(), [](dds_entity_t, dds_subscription_matched_status_t, void* argument) {
+          const Wake& wake = *static_cast<const Wake*>(argument);
+          wake.signal->raise(wake.topic);
+        });
+    marks_.watch(participant_.get(), news.get());
+  }
   participants_reader_ = open_reader(DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, Topic::presence);
 }
 
@@ -235,9 +268,11 @@ void DdsTransport::Member::publish(const Message& message) {
         }
       },
       message);
-  if (!sent)
-    log_warning(membership_.self.name,
-                "a message of topic " + std::string(rules_of(topic).name) + " was not sent");
+  if (sent) return;
+  if (const unsigned unsent = ++unsent_; std::has_single_bit(unsent))
+    log_warning(membership_.self.name, std::to_string(unsent) + " messages were not sent so far, " +
+                                           "this one of topic " +
+                                           std::string(rules_of(topic).name));
 }
 
 std::vector<Message> DdsTransport::Member::take(Topic topic) {
@@ -270,6 +305,7 @@ std::vector<Message> DdsTransport::Member::take(Topic topic) {
 std::vector<Message> DdsTransport::Member::take_presence() {
   std::vector<Message> changes;
   take_participants(changes);
+  if (with_keys_) believe(changes);
   take_silences(changes);
   return changes;
 }
@@ -286,6 +322,8 @@ void DdsTransport::Member::take_participants(std::vector<Message>& changes) {
         arrived(id, static_cast<dds_builtintopic_participant_t*>(samples[i])->qos, changes);
       else if (const auto gone = present_.extract(id))
         changes.emplace_back(Presence{PresenceChange::left, gone.mapped()});
+      else
+        claims_.erase(id);
     }
     if (count > 0) dds_return_loan(participants_reader_, samples.data(), count);
   } while (count == kBatch);
@@ -300,10 +338,29 @@ void DdsTransport::Member::arrived(dds_instance_handle_t id, const dds_qos_t* qo
   if (id == own || !dds_qget_userdata(qos, &data, &size) || !data) return;
   const auto who = internal::participant_from({static_cast<const char*>(data), size});
   dds_free(data);
-  if (!who || !present_.emplace(id, *who).second) return;
-  const bool understood = who->protocol == membership_.self.protocol;
+  if (!who) return;
+  if (with_keys_)
+    claims_.emplace(id, *who);
+  else
+    joined(id, *who, changes);
+}
+
+/// Those whose role is proven by now.
+void DdsTransport::Member::believe(std::vector<Message>& changes) {
+  if (claims_.empty()) return;
+  for (const auto& [id, role] : marks_.proven())
+    if (const auto claim = claims_.find(id); claim != claims_.end() && claim->second.role == role) {
+      joined(id, claim->second, changes);
+      claims_.erase(claim);
+    }
+}
+
+void DdsTransport::Member::joined(dds_instance_handle_t id, const Participant& who,
+                                  std::vector<Message>& changes) {
+  if (!present_.emplace(id, who).second) return;
+  const bool understood = who.protocol == membership_.self.protocol;
   changes.emplace_back(
-      Presence{understood ? PresenceChange::joined : PresenceChange::other_version, *who});
+      Presence{understood ? PresenceChange::joined : PresenceChange::other_version, who});
 }
 
 void DdsTransport::Member::take_silences(std::vector<Message>& changes) {

@@ -50,6 +50,26 @@ struct KeyOf {
 
 const TopicRules& rules_of(Topic topic) { return kRules[static_cast<std::size_t>(topic)]; }
 
+// Presence is read off tile_status. A pose of the master's is the reserve of a tracker's.
+TopicRights rights_of(Role role) {
+  using enum Topic;
+  switch (role) {
+    case Role::master:
+      return {.writes = {frame, scene, wall, pose, camera, event, answer, log},
+              .reads = {ready, tile_status, pose, event, command, log}};
+    case Role::tile:
+      return {.writes = {ready, tile_status, log}, .reads = {frame, scene, wall, pose, camera}};
+    case Role::tracker:
+      return {.writes = {pose, event, log}, .reads = {wall, camera}};
+    case Role::console:
+      return {.writes = {event, command},
+              .reads = {frame, tile_status, scene, wall, pose, camera, event, answer, log}};
+  }
+  return {};
+}
+
+std::string mark_of(Role role) { return "vindu/is_" + std::string(name_of(role)); }
+
 std::string key_of(const Message& message) { return std::visit(KeyOf(), message); }
 
 std::string version_complaint(const Participant& self, const Participant& other) {

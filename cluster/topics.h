@@ -13,6 +13,8 @@ namespace vindu {
 
 enum class Role { master, tile, tracker, console };
 
+constexpr Role kRoles[] = {Role::master, Role::tile, Role::tracker, Role::console};
+
 constexpr std::string_view name_of(Role role) {
   constexpr std::string_view names[] = {"master", "tile", "tracker", "console"};
   return names[static_cast<int>(role)];
@@ -116,6 +118,17 @@ struct TopicRules {
 };
 
 const TopicRules& rules_of(Topic topic);
+
+/// What a role may write and read where the wall has keys; nobody more than it needs.
+struct TopicRights {
+  Topics writes{};
+  Topics reads{};
+};
+TopicRights rights_of(Role role);
+
+/// The topic that nobody but this role may write where the wall has keys (internal/role_marks.h);
+/// the same in all versions, so that those who do not understand each other know who it is.
+std::string mark_of(Role role);
 std::string key_of(const Message& message);
 
 }  // namespace vindu

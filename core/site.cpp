@@ -198,6 +198,7 @@ void read_cluster(TomlTable& root, ClusterConfig& cluster) {
   cluster.domain = table->integer("domain", {0, 230}).value_or(cluster.domain);
   cluster.swap_group = table->boolean("swap_group").value_or(cluster.swap_group);
   cluster.lock = lock_from(table->one_of("lock", {"barrier", "timed", "free"}).value_or("barrier"));
+  cluster.keys = table->text("keys").value_or(cluster.keys);
   if (cluster.interface == "lo" && !cluster.master.empty())
     table->fail("interface", "is \"lo\", which no other host reaches; name the one to " +
                                  cluster.master + ", or leave it out");
@@ -340,6 +341,7 @@ Site site_of(const toml::table& parsed, const std::string& file) {
   problems.throw_if_any();
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (!site.scene.model.empty()) site.scene.model = (folder / site.scene.model).string();
+  if (!site.cluster.keys.empty()) site.cluster.keys = (folder / site.cluster.keys).string();
   for (CameraConfig& camera : site.cameras)
     if (!camera.video.file.empty()) camera.video.file = (folder / camera.video.file).string();
   return site;

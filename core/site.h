@@ -121,6 +121,7 @@ struct ClusterConfig {
   int domain = 0;  ///< of DDS: which UDP ports
   FrameLock lock = FrameLock::barrier;
   bool swap_group = false;  ///< graphics cards with a sync board swap together by wire
+  std::string keys{};  ///< folder, made by vindu keys; empty: whoever is on the network takes part
 };
 
 struct Site {

@@ -20,7 +20,7 @@ bool is_word(std::string_view text) {
 }
 
 std::optional<Role> role_from(std::string_view name) {
-  for (const Role role : {Role::master, Role::tile, Role::tracker, Role::console})
+  for (const Role role : kRoles)
     if (name == name_of(role)) return role;
   return std::nullopt;
 }

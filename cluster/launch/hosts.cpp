@@ -118,20 +118,22 @@ std::vector<HostReport> reports_from(const std::vector<std::string>& hosts,
   return reports;
 }
 
-std::vector<std::string> rsync_words(const std::string& host, const std::string& folder) {
-  return {"rsync",    "--recursive", "--copy-links",
-          "--perms",  "--times",     "--compress",
-          "--mkpath", "--rsh",       std::string("ssh ") + kSshOptions,
-          "--",       folder + "/",  host + ":.vindu/"};
+std::vector<std::string> rsync_words(const HostFiles& files) {
+  std::vector<std::string> words = {"rsync",    "--recursive", "--copy-links",
+                                    "--perms",  "--times",     "--compress",
+                                    "--mkpath", "--rsh",       std::string("ssh ") + kSshOptions,
+                                    "--"};
+  for (const std::string& folder : files.folders) words.push_back(folder + "/");
+  words.push_back(files.host + ":.vindu/");
+  return words;
 }
 
-std::vector<HostReport> copy_to_hosts(const std::vector<std::string>& hosts,
-                                      const std::string& folder) {
+std::vector<HostReport> copy_to_hosts(const std::vector<HostFiles>& hosts) {
   ChildProcesses children;
-  for (const std::string& host : hosts) children.start(host, rsync_words(host, folder));
+  for (const HostFiles& files : hosts) children.start(files.host, rsync_words(files));
   auto results = listen(children);
   std::vector<HostReport> reports;
-  for (const std::string& host : hosts) {
+  for (const auto& [host, folders] : hosts) {
     const ProgramResult& rsync = results[host];
     if (rsync.exit_code == kNoProgram) no_program("rsync", "rsync");
     HostReport& report = reports.emplace_back(HostReport{.host = host});

@@ -44,11 +44,16 @@ std::vector<HostReport> on_hosts(const std::vector<std::string>& hosts, const st
 std::vector<HostReport> reports_from(const std::vector<std::string>& hosts,
                                      const ProgramResult& clush);
 
-/// Copies a folder's content to ~/.vindu of each host by rsync over ssh, all at once; links are
-/// followed, and other files there stay.
-std::vector<HostReport> copy_to_hosts(const std::vector<std::string>& hosts,
-                                      const std::string& folder);
-std::vector<std::string> rsync_words(const std::string& host, const std::string& folder);
+/// A host, and the folders whose content it is to have.
+struct HostFiles {
+  std::string host;
+  std::vector<std::string> folders;
+};
+
+/// Copies them to ~/.vindu of each host by rsync over ssh, all hosts at once; links are followed,
+/// and other files there stay.
+std::vector<HostReport> copy_to_hosts(const std::vector<HostFiles>& hosts);
+std::vector<std::string> rsync_words(const HostFiles& files);
 
 /// A line for each kind of failure: "tile-[0-3]-0: ssh: reason; remedy". Empty when all is well.
 std::string failures_of(const std::vector<HostReport>& reports);

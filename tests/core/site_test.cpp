@@ -165,6 +165,7 @@ TEST(Site, IsOfOneMachineUnlessAMasterIsNamed) {
   const Site alone = site_of(kGrid);
   EXPECT_EQ(alone.cluster.name, "wall");
   EXPECT_EQ(alone.cluster.interface, "lo");
+  EXPECT_EQ(alone.cluster.keys, "");
   EXPECT_EQ(alone.cluster.lock, FrameLock::barrier);
   EXPECT_EQ(site_of(kGrid + "[cluster]\nmaster = \"node0\"\n").cluster.interface, "");
 }
@@ -173,7 +174,8 @@ TEST(Site, ReadsHowItsProcessesFindEachOther) {
   const ClusterConfig cluster =
       site_of(kGrid +
               "[cluster]\nname = \"left\"\nmaster = \"10.77.0.1\"\ninterface = \"eth1\"\n"
-              "multicast = false\ndomain = 7\nlock = \"timed\"\nswap_group = true\n")
+              "multicast = false\ndomain = 7\nlock = \"timed\"\nswap_group = true\n"
+              "keys = \"site/keys\"\n")
           .cluster;
   EXPECT_EQ(cluster.name, "left");
   EXPECT_EQ(cluster.master, "10.77.0.1");
@@ -182,6 +184,7 @@ TEST(Site, ReadsHowItsProcessesFindEachOther) {
   EXPECT_EQ(cluster.domain, 7);
   EXPECT_EQ(cluster.lock, FrameLock::timed);
   EXPECT_TRUE(cluster.swap_group);
+  EXPECT_TRUE(cluster.keys.ends_with("site/keys"));
 }
 
 TEST(Placement, IsKnownByItsName) {

@@ -59,9 +59,9 @@ TEST(CommandLines, NameHostsFoldedAndAskNothing) {
   const auto words = clush_words({"tile-0-0", "tile-1-0"}, "echo @done");
   EXPECT_THAT(words, ::testing::Contains("tile-[0-1]-0"));
   EXPECT_THAT(words, ::testing::Contains(HasSubstr("BatchMode=yes")));
-  EXPECT_EQ(rsync_words("tile-0-0", "/tmp/a b").back(), "tile-0-0:.vindu/");
-  EXPECT_EQ(rsync_words("tile-0-0", "/tmp/a b")[rsync_words("tile-0-0", "/tmp/a b").size() - 2],
-            "/tmp/a b/");
+  const std::vector<std::string> words = rsync_words({"tile-0-0", {"/tmp/a b", "/tmp/own"}});
+  EXPECT_THAT(std::vector(words.end() - 4, words.end()),
+              ElementsAre("--", "/tmp/a b/", "/tmp/own/", "tile-0-0:.vindu/"));
 }
 
 TEST(Programs, ThatAreNotThereSaySo) {

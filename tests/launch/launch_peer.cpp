@@ -115,7 +115,9 @@ int on_hosts_of_a_wall(const std::vector<std::string>& words) {
       .program_sha256 = sum("bin/vindu"),
       .wall_sha256 = sum("wall.toml")};
   const auto plans = host_plans(site);
-  const auto reports = verb == "copy"    ? copy_to_hosts(hosts, folder)
+  std::vector<HostFiles> files;
+  for (const std::string& host : hosts) files.push_back({host, {folder}});
+  const auto reports = verb == "copy"    ? copy_to_hosts(files)
                        : verb == "start" ? on_hosts(hosts, start_script(plans, request))
                        : verb == "stop"  ? on_hosts(hosts, stop_script())
                                          : on_hosts(hosts, restart_script());
