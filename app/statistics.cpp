@@ -18,8 +18,11 @@ double memory_bytes() {
   return statm ? resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
+/// Dashes where nothing was measured.
 OverlayRow quantiles_row(const std::string& label, const Quantiles& ms, int digits) {
-  const auto text = [&](double value) { return fmt::format("{:.{}f}", value, digits); };
+  const auto text = [&](double value) {
+    return ms == Quantiles{} ? "-" : fmt::format("{:.{}f}", value, digits);
+  };
   return {label, {text(ms.p50), text(ms.p99), text(ms.max)}};
 }
 

@@ -58,7 +58,8 @@ std::string json_of(const TileNow& tile) {
       json_text(tile.name), json_text(last.host), json_text(tile.state), last.presented,
       last.frames_per_s, last.late_frames, tile.restarts, last.scene_revision,
       json_text(last.renderer), json_text(last.version), json_text(last.error), last.draw.draw_ms,
-      last.draw.gpu_ms, last.draw.triangles, last.draw.culled_share, last.draw.memory_bytes, json_of(tile.report));
+      last.draw.gpu_ms, last.draw.triangles, last.draw.culled_share, last.draw.memory_bytes,
+      json_of(tile.report));
 }
 
 /// One line.

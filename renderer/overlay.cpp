@@ -5,7 +5,7 @@
 namespace vindu {
 namespace {
 
-constexpr float kOpacity = 0.9f;
+constexpr float kOpacity = 0.96f;
 
 /// The part of the image between two columns.
 Image columns_of(const Image& image, const ColumnsPx& columns) {
