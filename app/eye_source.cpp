@@ -65,13 +65,11 @@ class PointerEye final : public EyeSource {
 
 TrackedEye::TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
                        const TrackedEyeOptions& options)
-    : clock_(clock),
-      tracker_(site.cameras, site.heads, site.wall.room_from_wall, options.tracking),
+    : tracker_(site.cameras, site.heads, site.wall.room_from_wall, options.tracking),
       ease_(site.viewer.default_eye_in_wall),
       cameras_(site, room, clock, options.cameras) {}
 
 EyeNow TrackedEye::at(Time now, Time photon) {
-  const Time begin = clock_.now();
   for (const auto& camera : cameras_.sources())
     while (const auto observation = camera->next(now)) tracker_.absorb(*observation);
   const std::optional<PoseSample> pose = tracker_.track(now, photon);
@@ -81,8 +79,14 @@ EyeNow TrackedEye::at(Time now, Time photon) {
   return {.eye_in_wall = shown,
           .mode = Mode::track,
           .pose = pose,
-          .tracked = eye && (shown - *eye).norm() < 1e-6,
-          .solve = clock_.now() - begin};
+          .tracked = eye && (shown - *eye).norm() < 1e-6};
+}
+
+FrameOrigin origin_of(const EyeNow& eye, Time tick, Time found) {
+  const bool seen = eye.pose && eye.pose->level < TrackingLevel::held;
+  return {.capture_time = seen ? std::optional(eye.pose->capture_time) : std::nullopt,
+          .tick_time = tick,
+          .eye_time = found};
 }
 
 std::unique_ptr<EyeSource> follow_path(CameraPath path) {

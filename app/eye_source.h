@@ -8,6 +8,7 @@
 
 #include "app/cameras.h"
 #include "core/camera_path.h"
+#include "core/frame_parts.h"
 #include "core/frame_state.h"
 #include "core/pose.h"
 #include "core/site.h"
@@ -24,8 +25,10 @@ struct EyeNow {
   Mode mode = Mode::track;
   std::optional<PoseSample> pose{};  ///< that the eye rests on; empty where nothing is tracked
   bool tracked = false;              ///< it is the pose's eye, not held and not being led to it
-  Duration solve{};                  ///< reading the cameras and finding the pose
 };
+
+/// How the frame that shows this eye began: tracked where the eye is seen, not held.
+FrameOrigin origin_of(const EyeNow& eye, Time tick, Time found);
 
 class EyeSource {
  public:
@@ -51,7 +54,6 @@ class TrackedEye final : public EyeSource {
   const Cameras& cameras() const { return cameras_; }
 
  private:
-  Clock& clock_;
   Tracker tracker_;
   EyeEase ease_;
   Cameras cameras_;

@@ -19,7 +19,7 @@ class PhotonDelay {
 }  // namespace
 
 LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
-                      const DrawFrame& draw, const PresentFrame& present) {
+                      const FrameSteps& steps) {
   LoopResult result;
   const Time start = clock.now();
   PhotonDelay delay(from_seconds(1 / options.rate_hz));
@@ -37,15 +37,17 @@ LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
                                  .mode = eye.mode},
                        .pose = eye.pose,
                        .shows_the_tracked_eye = eye.tracked,
-                       .capture_age = eye.pose ? now - eye.pose->capture_time : Duration{},
-                       .solve = eye.solve};
+                       .tick = now};
+    const FrameOrigin origin = origin_of(eye, now, clock.now());
     const Time drawing = clock.now();
-    record.black_tiles = draw(record.state);
+    record.black_tiles = steps.draw(record.state);
     const Time drawn = clock.now();
-    record.draw = drawn - drawing;
-    const bool go_on = present(record);
-    record.present = clock.now() - drawn;
-    delay.add(clock.now() - now);
+    const bool go_on = steps.present(record);
+    const Time shown = clock.now();
+    record.parts = parts_of(origin, {.draw = drawn - drawing, .swap = shown - drawn}, shown,
+                            options.display_latency);
+    delay.add(shown - now);
+    if (steps.shown) steps.shown(record);
     result.frames.push_back(record);
     if (!go_on) break;
     const auto next =

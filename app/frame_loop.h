@@ -16,11 +16,8 @@ struct FrameRecord {
   FrameState state;
   std::optional<PoseSample> pose;
   bool shows_the_tracked_eye = false;  ///< not held, and not on its way to it or from it
-  Duration
-      capture_age{};  ///< from the arrival of the newest report that the pose rests on to the tick
-  Duration solve{};
-  Duration draw{};
-  Duration present{};
+  Time tick{};
+  FrameParts parts{};  ///< drawn and presented by this process: no barrier, no pick-up
   int black_tiles = 0;
 };
 
@@ -43,9 +40,18 @@ using DrawFrame = std::function<int(const FrameState&)>;
 /// Presents it; false ends the loop.
 using PresentFrame = std::function<bool(const FrameRecord&)>;
 
+/// What is to be known of a frame when it was presented.
+using FrameShown = std::function<void(const FrameRecord&)>;
+
+struct FrameSteps {
+  DrawFrame draw;
+  PresentFrame present;
+  FrameShown shown{};
+};
+
 /// A tick that cannot be kept is skipped, never made up for. The frame's photon time is predicted
 /// from the draw time of the frames before.
 LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
-                      const DrawFrame& draw, const PresentFrame& present);
+                      const FrameSteps& steps);
 
 }  // namespace vindu::app

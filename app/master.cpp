@@ -35,7 +35,9 @@ struct MasterCommand {
   std::uint64_t seed = 52;
   EmulationOptions emulation;
   bool tracker_elsewhere = false;
+  std::string csv_file;
   bool counter = false;
+  bool overlay = false;
   bool json = false;
 };
 
@@ -86,20 +88,22 @@ class MasterRun {
                                .name = "master",
                                .host = host_name(),
                                .version = VINDU_VERSION},
-                              {Topic::frame, Topic::scene, Topic::camera, Topic::answer},
+                              kTells,
                               kJoins})),
         wall_(*bus_, {.epoch = new_epoch(),
                       .host = host_name(),
                       .tiles = tile_names(site.wall),
                       .barrier = {.lock = site.cluster.lock}}),
         elsewhere_(command.tracker_elsewhere),
-        overlays_(command.counter ? std::uint32_t{kFrameCounter} : 0) {
+        overlays_((command.counter ? std::uint32_t{kFrameCounter} : 0) |
+                  (command.overlay ? std::uint32_t{kStatistics} : 0)),
+        figures_(tile_names(site.wall), display_latency(), command.csv_file) {
     set_mode(command.mode, command.path_file);
     placing_.start(command.model, command.place, site);
   }
 
   /// Throws Error when the first scene cannot be read.
-  WallFigures run(const StopSignals& signals, std::optional<double> seconds_long) {
+  const WallFigures& run(const StopSignals& signals, std::optional<double> seconds_long) {
     const Time start = clock_.now();
     Time tick = start;
     while (!stopped_ && !signals.came_within(Duration::zero())) {
@@ -120,12 +124,15 @@ class MasterRun {
     }
     figures_.length = clock_.now() - start;
     figures_.tiles = wall_.tiles();
+    figures_.end();
     return figures_;
   }
 
  private:
   static constexpr Topics kHears = {Topic::ready, Topic::tile_status, Topic::presence,
                                     Topic::command};
+  static constexpr Topics kTells = {Topic::frame, Topic::scene, Topic::report, Topic::camera,
+                                    Topic::answer};
   static constexpr Topics kJoins = {Topic::ready, Topic::tile_status, Topic::presence,
                                     Topic::command, Topic::pose};
 
@@ -159,18 +166,18 @@ class MasterRun {
       glide_.reset();
     }
     glide(now);
-    const Time photon =
-        now + figures_.to_light() + from_seconds(1e-3 * site_.viewer.display_latency_ms);
+    const Time photon = now + figures_.to_light() + display_latency();
     const EyeNow eye = eyes_->at(now, photon);
+    const FrameOrigin origin = origin_of(eye, now, clock_.now());
     const FrameState state = {.photon_time = photon,
                               .eye_in_wall = eye.eye_in_wall,
                               .navigation = navigation_,
                               .animation_time_s = seconds(now.time_since_epoch()),
                               .mode = eye.mode,
                               .overlays = overlays_};
-    wall_.begin(state, now);
-    figures_.begun(now, eye.pose ? std::optional(now - eye.pose->capture_time) : std::nullopt,
-                   eye.solve);
+    wall_.begin(state, now, origin);
+    figures_.begun(origin, eye.pose ? std::optional(eye.pose->level) : std::nullopt);
+    if (const auto report = figures_.report(now, wall_.tiles())) wall_.report(*report);
     publish_camera(eye.eye_in_wall);
   }
 
@@ -186,7 +193,7 @@ class MasterRun {
   }
 
   void note_events() {
-    for (const FrameSkew& skew : wall_.take_skews()) figures_.add(skew);
+    for (const FrameSkew& skew : wall_.take_skews()) figures_.add(skew, clock_.now());
     for (const MemberEvent& event : wall_.take_events()) {
       figures_.add(event);
       const std::string what = fmt::format("{} at frame {}", name_of(event.change), event.number);
@@ -247,6 +254,9 @@ class MasterRun {
       case Verb::go_to:
         go_to(command.argument);
         break;
+      case Verb::overlay:
+        set_overlay(kStatistics, command.argument == "on");
+        break;
       case Verb::blank:
         throw Error({"cannot blank the wall yet", "the master", "stop it: vindu stop"});
     }
@@ -272,8 +282,14 @@ class MasterRun {
   void set_pattern(const std::string& pattern) {
     if (pattern != "counter" && pattern != "none")
       throw Error({"there is no pattern " + pattern, "pattern", "choose counter or none"});
-    overlays_ = pattern == "counter" ? std::uint32_t{kFrameCounter} : 0;
+    set_overlay(kFrameCounter, pattern == "counter");
   }
+
+  void set_overlay(Overlay overlay, bool on) {
+    overlays_ = on ? overlays_ | overlay : overlays_ & ~std::uint32_t{overlay};
+  }
+
+  Duration display_latency() const { return from_seconds(1e-3 * site_.viewer.display_latency_ms); }
 
   MonotonicClock clock_;
   const Site& site_;
@@ -303,7 +319,8 @@ class MasterRun {
 int master(const MasterCommand& command) {
   const Site site = load_site(command.wall_file);
   const StopSignals signals;
-  const WallFigures figures = MasterRun(command, site).run(signals, command.seconds);
+  MasterRun run(command, site);
+  const WallFigures& figures = run.run(signals, command.seconds);
   std::fputs((command.json ? figures.json() : figures.table()).c_str(), stdout);
   return 0;
 }
@@ -329,12 +346,16 @@ void add_master(CLI::App& parent, Action& chosen) {
                 "Leaves the wall file's cameras to vindu track --publish on another host;\n"
                 "without it they are asked while no such tracker is heard");
   app->add_flag("--counter", command->counter, "Tiles show each frame's number");
+  app->add_flag("--overlay", command->overlay, "Tiles show their figures (vindu overlay on)");
+  app->add_option("--csv", command->csv_file,
+                  "Writes a line for each frame: its parts, motion to photon, skew")
+      ->type_name("FILE");
   app->add_flag("--json", command->json, "Figures as JSON");
   add_emulation(*app, command->emulation);
   app->footer(
       "\nExamples:\n"
       "  vindu master --wall wall.toml\n"
-      "  vindu master model.glb --mode loop --seconds 60\n");
+      "  vindu master model.glb --mode loop --seconds 60 --csv frames.csv\n");
   app->callback([command, &chosen] { chosen = [command] { return master(*command); }; });
 }
 

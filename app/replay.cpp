@@ -9,6 +9,7 @@
 #include "app/common.h"
 #include "app/pose_lines.h"
 #include "app/replay_json.h"
+#include "app/replay_parts.h"
 #include "app/replay_summary.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -27,6 +28,7 @@ struct ReplayCommand {
   std::string wall_file;
   std::string speed = "max";
   bool track = false;
+  bool parts = false;
   bool json = false;
   bool text = false;
   bool skip_damage = false;
@@ -110,6 +112,18 @@ class Ticks {
   std::int64_t number_ = 0;
 };
 
+/// Of the machine's own time, also where recorded time is played; runs from the start.
+class Stopwatch {
+ public:
+  /// Returns the time that it has run.
+  Duration pause() { return sum_ += std::chrono::steady_clock::now() - began_; }
+  void go_on() { began_ = std::chrono::steady_clock::now(); }
+
+ private:
+  Time began_ = std::chrono::steady_clock::now();
+  Duration sum_{};
+};
+
 /// Knows when the next report comes, so that long silences need not be ticked through.
 class Lookahead {
  public:
@@ -137,15 +151,25 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
   Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
   Lookahead ahead(command.file, command.damage());
   PoseLines lines(site, targets_from(command.targets));
+  ReplayParts parts;
+  const auto end = [&] {
+    if (command.parts) std::fputs(parts.table().c_str(), stdout);
+    return 0;
+  };
   const Duration predicted = from_seconds(1e-3 * command.predict_ms);
   for (Ticks ticks(site.rate_hz, summary.first);; ticks.advance()) {
     const Time now = ticks.now() + pace.shift;
+    Stopwatch solve;
     for (WiimoteReader& reader : readers)
       while (const auto observation = reader.next(now)) tracker.absorb(*observation);
+    solve.pause();
     pace.clock->sleep_until(now);
-    tracker.track(now, now + predicted);
-    for (const std::string& line : lines.news(tracker, -pace.shift)) put_line(line);
-    if (ticks.now() >= summary.last) return 0;
+    solve.go_on();
+    const auto pose = tracker.track(now, now + predicted);
+    parts.add(now, pose, solve.pause());
+    if (!command.parts)
+      for (const std::string& line : lines.news(tracker, -pace.shift)) put_line(line);
+    if (ticks.now() >= summary.last) return end();
     if (const auto next = ahead.silent_until(ticks.now())) ticks.advance_to(*next);
   }
 }
@@ -172,7 +196,7 @@ int replay(const ReplayCommand& command) {
   if (command.speed == "real") std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const RecordingSummary summary = summarize(command.file, command.damage());
   for (const std::string& remark : summary.problems.remarks) log_warning("replay", remark);
-  if (command.track) return track(command, summary);
+  if (command.track || command.parts) return track(command, summary);
   if (command.text) print_comments(summary);
   if (command.text || command.json) return print_reports(command, summary);
   std::fputs(table_of(summary).c_str(), stdout);
@@ -192,8 +216,14 @@ void add_replay(CLI::App& parent, Action& chosen) {
   auto* track =
       app->add_flag("--track", command->track, "Track, and print the poses as lines of JSON");
   auto* json = app->add_flag("--json", command->json, "A line of JSON for each report");
+  auto* parts =
+      app->add_flag("--parts", command->parts,
+                    "Track, and print how old captures are at the wall's ticks, and what\n"
+                    "finding the eye takes");
+  parts->excludes(track)->excludes(json);
   app->add_flag("--text", command->text, "The recording in its text form")
       ->excludes(track)
+      ->excludes(parts)
       ->excludes(json);
   app->add_option("--speed", command->speed,
                   "real: as it was recorded; max: as fast as it can (default)")
@@ -210,6 +240,7 @@ void add_replay(CLI::App& parent, Action& chosen) {
       "\nExamples:\n"
       "  vindu replay walk.vrec\n"
       "  vindu replay walk.vrec --track > poses.jsonl\n"
+      "  vindu replay walk.vrec --parts\n"
       "  vindu replay walk.vrec --text > walk.txt\n"
       "  vindu replay walk.txt --track --wall wall.toml --speed real\n");
   app->callback([command, &chosen] { chosen = [command] { return replay(*command); }; });

@@ -36,23 +36,22 @@ std::vector<FrameRecord> tracked_frames(const std::vector<FrameRecord>& frames) 
 std::vector<Row> latency_rows(const RunReport& report) {
   const auto& all = report.loop.frames;
   const auto seen = tracked_frames(all);
-  const auto ms = [](Duration FrameRecord::*part) {
-    return [part](const FrameRecord& frame) { return milliseconds(frame.*part); };
+  const auto ms = [](Part part) {
+    return [part](const FrameRecord& frame) { return milliseconds(frame.parts[part]); };
   };
   std::vector<Row> rows;
   if (!seen.empty())
-    rows.push_back(
-        {"capture age", "capture_age_ms", spread_over(seen, ms(&FrameRecord::capture_age))});
+    rows.push_back({"capture age", "capture_age_ms", spread_over(seen, ms(Part::capture_age))});
   if (report.tracker)
-    rows.push_back(
-        {"read cameras and solve", "solve_ms", spread_over(all, ms(&FrameRecord::solve))});
-  rows.push_back({"draw all tiles", "draw_ms", spread_over(all, ms(&FrameRecord::draw))});
-  rows.push_back({"present", "present_ms", spread_over(all, ms(&FrameRecord::present))});
+    rows.push_back({"read cameras and solve", "solve_ms", spread_over(all, ms(Part::solve))});
+  rows.push_back({"draw all tiles", "draw_ms", spread_over(all, ms(Part::draw))});
+  rows.push_back({"present", "present_ms", spread_over(all, ms(Part::swap))});
+  if (!all.empty() && all.front().parts[Part::display] > Duration{})
+    rows.push_back({"display", "display_ms", spread_over(all, ms(Part::display))});
   if (!seen.empty())
     rows.push_back({"report to photon, sum", "report_to_photon_ms",
                     spread_over(seen, [](const FrameRecord& frame) {
-                      return milliseconds(frame.capture_age + frame.solve + frame.draw +
-                                          frame.present);
+                      return milliseconds(frame.parts.motion_to_photon());
                     })});
   return rows;
 }

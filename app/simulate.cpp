@@ -12,8 +12,10 @@
 #include "app/contact_sheet.h"
 #include "app/emulation.h"
 #include "app/eye_source.h"
+#include "app/frame_csv.h"
 #include "app/frame_loop.h"
 #include "app/report.h"
+#include "app/window_statistics.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/eye_picture.h"
@@ -37,6 +39,7 @@ struct SimulateOptions {
   std::optional<std::string> method;
   std::string clock = "real";
   std::string out = "out";
+  std::string csv_file;
   std::optional<Placement> place;
   std::optional<double> seconds;
   std::optional<double> scale;
@@ -185,7 +188,11 @@ Rigid3 head_in_picture(const Run& run, const FrameState& state) {
 /// The window: the room above, the wall's picture below.
 class WindowPainter {
  public:
-  WindowPainter(Run& run) : run_(run), room_(run.site, {960, 540}, live_look()) {}
+  WindowPainter(Run& run, Window& window)
+      : run_(run),
+        room_(run.site, {960, 540}, live_look()),
+        statistics_(window, run.site.rate_hz) {}
+  WindowStatistics& statistics() { return statistics_; }
   void paint(const FrameRecord& record) {
     room_.draw(*run_.wall, head_in_picture(run_, record.state));
     const SizePx size = run_.surface->size();
@@ -196,26 +203,42 @@ class WindowPainter {
     room_.picture().make_mipmaps();
     present_in(*run_.wall, room_.picture(), 0, strip, {size.width, size.height - strip});
     present_in(*run_.wall, run_.wall->picture(), 0, 0, {size.width, strip});
+    statistics_.draw_over(run_.wall->renderer());
   }
 
  private:
   Run& run_;
   RoomView room_;
+  WindowStatistics statistics_;
 };
+
+/// As a wall of processes has it, but for the tiles' names.
+FrameLine line_of(const FrameRecord& record, std::size_t tiles) {
+  return {.number = record.state.number,
+          .tick = record.tick,
+          .level = record.pose ? std::optional(record.pose->level) : std::nullopt,
+          .tiles = tiles,
+          .parts = record.parts};
+}
 
 LoopResult play(Run& run) {
   LoopOptions loop{.rate_hz = run.site.rate_hz,
                    .display_latency = from_seconds(1e-3 * run.site.viewer.display_latency_ms),
                    .length = {},
                    .navigation = run.loaded.navigation};
-  const bool windowed = dynamic_cast<Window*>(run.surface.get()) != nullptr;
-  if (run.options.seconds || !windowed)
-    loop.length = from_seconds(run.options.seconds.value_or(15));
+  auto* const window = dynamic_cast<Window*>(run.surface.get());
+  if (run.options.seconds || !window) loop.length = from_seconds(run.options.seconds.value_or(15));
   std::optional<WindowPainter> painter;
-  if (windowed) painter.emplace(run);
+  if (window) painter.emplace(run, *window);
+  std::optional<FrameCsv> csv;
+  if (!run.options.csv_file.empty()) csv.emplace(run.options.csv_file);
   const auto draw = [&](const FrameState& state) {
+    const Time began = run.clock->now();
+    if (painter) painter->statistics().timer().begin();
     const WallFrame frame = run.wall->draw(state);
+    if (painter) painter->statistics().timer().end();
     run.wall->finish();
+    if (painter) painter->statistics().drew(frame.count, run.clock->now() - began);
     return static_cast<int>(frame.black_tiles.size());
   };
   const auto present = [&](const FrameRecord& record) {
@@ -223,7 +246,11 @@ LoopResult play(Run& run) {
     run.surface->present();
     return !run.surface->close_wanted();
   };
-  return run_frames(loop, *run.clock, *run.eyes, draw, present);
+  const auto shown = [&](const FrameRecord& record) {
+    if (painter) painter->statistics().showed(record);
+    if (csv) csv->add(line_of(record, run.site.wall.tiles.size()));
+  };
+  return run_frames(loop, *run.clock, *run.eyes, {draw, present, shown});
 }
 
 /// The moments worth a picture: farthest left, in the middle between both, farthest right; among
@@ -345,10 +372,14 @@ void add_simulate(CLI::App& parent, Action& chosen) {
       ->check(CLI::IsMember({"real", "manual"}));
   app->add_flag("--headless", options->headless, "No window, also where there is a display");
   app->add_flag("--json", options->json, "Figures as JSON");
+  app->add_option("--csv", options->csv_file,
+                  "Writes a line for each frame: its parts and motion to photon")
+      ->type_name("FILE");
   app->add_option("--device", options->device, "EGL device (GPU) by its index, without a window");
   app->add_option("--out", options->out, "Folder for the pictures (default: out)")
       ->type_name("DIR");
   app->footer(
+      "\nIn the window F1 shows figures of the frames; Escape ends.\n"
       "\nExamples:\n"
       "  vindu simulate\n"
       "  vindu simulate model.glb --seconds 30 --out pictures\n"

@@ -27,14 +27,41 @@ struct StatusCommand {
 constexpr auto kListen = std::chrono::milliseconds(1500);
 constexpr auto kTurn = std::chrono::milliseconds(50);
 
+std::string json_of(const Quantiles& ms) {
+  return fmt::format(R"({{"p50": {:.4f}, "p99": {:.4f}, "max": {:.4f}}})", ms.p50, ms.p99, ms.max);
+}
+
+/// What the master measured of the wall or of a tile; parts by their names.
+std::string json_of(const std::optional<ReportMessage>& report) {
+  if (!report) return "null";
+  const FrameSummary& frames = report->frames;
+  std::string parts;
+  for (int i = 0; i < kParts; ++i)
+    parts += fmt::format("{}{}: {:.4f}", i > 0 ? ", " : "",
+                         json_text(std::string(name_of(static_cast<Part>(i)))),
+                         frames.mean_ms[static_cast<std::size_t>(i)]);
+  return fmt::format(
+      R"({{"frames": {}, "fps": {:.2f}, "tracked": {}, "level": {}, "parts_ms": {{{}}}, )"
+      R"("motion_to_photon_ms": {}, "skew_ms": {}, "locked": {}, "evicted": {}, )"
+      R"("restarted": {}, "event": {}}})",
+      frames.frames, frames.frames_per_s, frames.tracked,
+      json_text(std::string(name_of(report->level))), parts, json_of(frames.motion_to_photon_ms),
+      json_of(frames.skew_ms), report->locked, report->evictions, report->restarts,
+      json_text(report->event));
+}
+
 std::string json_of(const TileNow& tile) {
   const StatusMessage& last = tile.last;
   return fmt::format(
       R"({{"tile": {}, "host": {}, "state": {}, "frame": {}, "fps": {:.2f}, "late_frames": {}, )"
-      R"("restarts": {}, "scene": {}, "renderer": {}, "version": {}, "error": {}}})",
+      R"("restarts": {}, "scene": {}, "renderer": {}, "version": {}, "error": {}, )"
+      R"("draw_ms": {:.3f}, "gpu_ms": {:.3f}, "triangles": {}, "culled_share": {:.4f}, )"
+      R"("memory_bytes": {:.0f}, "report": {}}})",
       json_text(tile.name), json_text(last.host), json_text(tile.state), last.presented,
       last.frames_per_s, last.late_frames, tile.restarts, last.scene_revision,
-      json_text(last.renderer), json_text(last.version), json_text(last.error));
+      json_text(last.renderer), json_text(last.version), json_text(last.error), last.draw.draw_ms,
+      last.draw.gpu_ms, last.draw.triangles, last.draw.culled_share, last.draw.memory_bytes,
+      json_of(tile.report));
 }
 
 /// One line.
@@ -44,9 +71,10 @@ std::string json_of(const WallNow& wall) {
   for (const std::string& name : wall.trackers)
     trackers += (trackers.empty() ? "" : ", ") + json_text(name);
   return fmt::format(R"({{"good": {}, "master": {}, "epoch": {}, "frame": {}, "fps": {:.2f}, )"
-                     R"("active_tiles": {}, "trackers": [{}], "tiles": [{}]}})",
+                     R"("active_tiles": {}, "report": {}, "trackers": [{}], "tiles": [{}]}})",
                      wall.good(), wall.master ? json_text(wall.master->host) : "null", wall.epoch,
-                     wall.frame, wall.frames_per_s, wall.active_tiles, trackers, tiles);
+                     wall.frame, wall.frames_per_s, wall.active_tiles, json_of(wall.report),
+                     trackers, tiles);
 }
 
 void print(const StatusCommand& command, const WallNow& wall) {

@@ -11,12 +11,14 @@
 #include "app/service.h"
 #include "app/shown_file.h"
 #include "app/stop_signals.h"
+#include "app/tile_statistics.h"
 #include "app/wall_console.h"
 #include "cluster/dds.h"
 #include "cluster/wall_tile.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/frame_counter.h"
+#include "renderer/gpu_timer.h"
 #include "renderer/notice.h"
 #include "renderer/resources.h"
 #include "renderer/surface.h"
@@ -86,10 +88,14 @@ class Loading {
 /// The pictures of this process' tiles, and what they show when there is no scene.
 class TilePainter {
  public:
-  TilePainter(const Wall& part, double scale, Surface& surface)
-      : part_(part), surface_(surface), renderer_(part, scale, live_look()) {}
+  TilePainter(const Site& site, const Wall& part, double scale, Surface& surface)
+      : part_(part),
+        surface_(surface),
+        renderer_(part, scale, live_look()),
+        statistics_(site, part) {}
 
   WallRenderer& renderer() { return renderer_; }
+  TileStatistics& statistics() { return statistics_; }
 
   void note(const std::vector<std::string>& lines) {
     for (std::size_t i = 0; i < part_.tiles.size(); ++i) {
@@ -101,14 +107,21 @@ class TilePainter {
 
   /// `words` stand where there is no scene to show.
   void draw(const FrameState& state, const std::vector<std::string>& words) {
-    if (words.empty())
-      renderer_.draw(state);
-    else
+    const Time began = std::chrono::steady_clock::now();
+    WallFrame frame;
+    if (words.empty()) {
+      timer_.begin();
+      frame = renderer_.draw(state);
+      timer_.end();
+    } else {
       note(words);
+    }
+    if (state.overlays & kStatistics) statistics_.draw_over(renderer_);
     if (state.overlays & kFrameCounter)
       for (const RectPx& place : renderer_.layout().tiles)
         draw_frame_counter(state.number, place, renderer_.picture());
     renderer_.finish();
+    statistics_.drew(frame, std::chrono::steady_clock::now() - began, timer_.newest());
   }
 
   void present() {
@@ -126,6 +139,8 @@ class TilePainter {
   Wall part_;
   Surface& surface_;
   WallRenderer renderer_;
+  GpuTimer timer_;
+  TileStatistics statistics_;
 };
 
 std::unique_ptr<Surface> surface_for(const TileCommand& command, const Wall& part) {
@@ -151,14 +166,14 @@ class TileRun {
                                .host = host_name(),
                                .version = VINDU_VERSION},
                               WallTile::publishes(),
-                              WallTile::hears()})),
+                              hears(site, part_)})),
         tile_(*bus_, {.host = host_name(), .incarnation = random_id(), .version = VINDU_VERSION},
               command.tiles),
         shown_(command.shown_file) {
     tile_.poll(clock_.now());  // "loading", before anything that takes its time
     surface_ = surface_for(command, part_);
     tile_.renders_with(gl_description());
-    painter_.emplace(part_, command.scale.value_or(1), *surface_);
+    painter_.emplace(site_, part_, command.scale.value_or(1), *surface_);
     log_info(command.tiles.front(), gl_description());
     if (site.cluster.swap_group) join_group(command.tiles.front());
   }
@@ -184,9 +199,16 @@ class TileRun {
       log_warning(tile, state.text);
   }
 
+  static Topics hears(const Site& site, const Wall& part) {
+    Topics topics = WallTile::hears();
+    if (TileStatistics::hears(site, part)) topics.add(Topic::report);
+    return topics;
+  }
+
   void step() {
     const Time now = clock_.now();
     tile_.poll(now);
+    painter_->statistics().hear(*bus_);
     handle_scenes();
     switch (tile_.next(now, surface_->free())) {
       case WallTile::Next::show:
@@ -217,12 +239,16 @@ class TileRun {
     if (failed_revision_ == frame_.scene_revision && !failed_.empty()) has_scene_ = false;
     painter_->draw(frame_.newest, has_scene_ ? std::vector<std::string>{} : notice_lines(now));
     tile_.drew(frame_.newest.number, now, clock_.now());
+    tile_.measured(painter_->statistics().figures());
   }
 
   void show() {
+    const Time began = clock_.now();
     painter_->present();
     const Time now = clock_.now();
-    tile_.showed(now);
+    tile_.showed(began, now);
+    painter_->statistics().showed(
+        now, tile_.presented_frame(from_seconds(1e-3 * site_.viewer.display_latency_ms)));
     if (shown_.wanted())
       for (std::size_t i = 0; i < part_.tiles.size(); ++i)
         shown_.add(now, frame_, part_.tiles[i].name, painter_->renderer().read_tile(i));

@@ -9,6 +9,7 @@
 #include "app/eye_source.h"
 #include "app/frame_loop.h"
 #include "app/report.h"
+#include "app/window_statistics.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/resources.h"
@@ -106,11 +107,14 @@ class Viewer {
         window_(window),
         site_(screen_site(options, window.screen())),
         renderer_(Style::lit),
+        statistics_(window, site_.rate_hz),
         shown_(load_shown(options.model, options, site_,
                           content_corners(site_.wall.tiles.front(), window))) {}
 
   const Site& site() const { return site_; }
   const Navigation& navigation() const { return shown_.navigation; }
+
+  WindowStatistics& statistics() { return statistics_; }
 
   int draw(const FrameState& state) {
     const TileMount mount = site_.wall.tiles.front().mount;
@@ -127,13 +131,18 @@ class Viewer {
                       state.animation_time_s);
     const GpuScene* scenes[] = {&shown_.scene};
     canvas_->begin();
-    if (view) renderer_.draw(*view, scenes);
+    const Time began = std::chrono::steady_clock::now();
+    statistics_.timer().begin();
+    const DrawCount count = view ? renderer_.draw(*view, scenes) : DrawCount{};
     canvas_->resolve(*picture_);
+    statistics_.timer().end();
     picture_->make_mipmaps();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, window_.size().width, window_.size().height);
     renderer_.present(*picture_, mount);
+    statistics_.draw_over(renderer_);
     glFinish();
+    statistics_.drew(count, std::chrono::steady_clock::now() - began);
     return view ? 0 : 1;
   }
 
@@ -155,6 +164,7 @@ class Viewer {
   Window& window_;
   Site site_;
   SceneRenderer renderer_;
+  WindowStatistics statistics_;
   Shown shown_;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<Picture> picture_;
@@ -213,13 +223,15 @@ int view(const ViewOptions& options) {
                    .length = {},
                    .navigation = viewer.navigation()};
   if (options.seconds) loop.length = from_seconds(*options.seconds);
-  const LoopResult result = run_frames(
-      loop, clock, *eyes, [&](const FrameState& state) { return viewer.draw(state); },
-      [&](const FrameRecord&) {
-        window->present();
-        viewer.take_dropped_model();
-        return !window->close_wanted();
-      });
+  const LoopResult result =
+      run_frames(loop, clock, *eyes,
+                 {[&](const FrameState& state) { return viewer.draw(state); },
+                  [&](const FrameRecord&) {
+                    window->present();
+                    viewer.take_dropped_model();
+                    return !window->close_wanted();
+                  },
+                  [&](const FrameRecord& record) { viewer.statistics().showed(record); }});
   const auto* tracked = dynamic_cast<const TrackedEye*>(eyes.get());
   const RunReport report{
       .loop = result,
@@ -270,7 +282,7 @@ void add_view(CLI::App& parent, Action& chosen) {
   app->footer(
       "\nWithout --eye, --mouse, --track or --path the eye is that of a simulated person who walks "
       "to and fro.\n"
-      "Drop another model on the window to see it. Escape ends.\n"
+      "Drop another model on the window to see it. F1 shows figures of the frames. Escape ends.\n"
       "\nExamples:\n"
       "  vindu view model.glb --mouse\n"
       "  vindu view scan.ply --eye 0,0.1,0.6 --screen-mm 527 296\n"

@@ -1,5 +1,5 @@
-// vindu show, mode, goto, pattern, stop: asked of the master of a running wall, which says whether
-// it did.
+// vindu show, mode, goto, pattern, overlay, stop: asked of the master of a running wall, which says
+// whether it did.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -98,6 +98,20 @@ void add_pattern(CLI::App& parent, Action& chosen) {
   app->footer("\nExamples:\n  vindu pattern counter\n  vindu pattern none --wall wall.toml\n");
   app->callback([command, &chosen] {
     chosen = [command] { return ask(*command, Verb::pattern, command->argument); };
+  });
+}
+
+void add_overlay(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ControlCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "overlay", "Figures over a running wall: each tile's in its corner, the wall's on one");
+  app->add_option("SWITCH", command->argument, "on or off")
+      ->required()
+      ->check(CLI::IsMember({"on", "off"}));
+  add_common(*app, *command);
+  app->footer("\nExamples:\n  vindu overlay on\n  vindu overlay off --wall wall.toml\n");
+  app->callback([command, &chosen] {
+    chosen = [command] { return ask(*command, Verb::overlay, command->argument); };
   });
 }
 

@@ -16,54 +16,83 @@ void keep(std::vector<double>& values, double value) {
   values.push_back(value);
 }
 
-struct Spread {
-  double p50 = 0, p99 = 0, max = 0;
-};
-
-Spread spread_of(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::ranges::sort(values);
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.5), at(0.99), values.back()};
-}
-
 std::string row(const char* name, const std::vector<double>& values) {
-  const Spread spread = spread_of(values);
+  const Quantiles spread = quantiles_of(values);
   return fmt::format("  {:<24}{:>9.3f}{:>9.3f}{:>9.3f} ms\n", name, spread.p50, spread.p99,
                      spread.max);
 }
 
 std::string json_row(const char* name, const std::vector<double>& values) {
-  const Spread spread = spread_of(values);
+  const Quantiles spread = quantiles_of(values);
   return fmt::format("\"{}\":{{\"p50\":{:.4f},\"p99\":{:.4f},\"max\":{:.4f}}}", name, spread.p50,
                      spread.p99, spread.max);
 }
 
 }  // namespace
 
-void WallFigures::begun(Time now, std::optional<Duration> capture_age, Duration solve) {
-  constexpr std::size_t kKept = 256;
-  begun_[++frames_] = now;
-  if (begun_.size() > kKept) begun_.erase(begun_.begin());
-  if (last_begun_) keep(gaps_ms_, 1e3 * seconds(now - *last_begun_));
-  last_begun_ = now;
-  if (capture_age) keep(capture_ages_ms_, 1e3 * seconds(*capture_age));
-  keep(solves_ms_, 1e3 * seconds(solve));
+WallFigures::WallFigures(const std::vector<std::string>& names, Duration display,
+                         const std::string& csv_file)
+    : display_(display), reports_(names) {
+  if (!csv_file.empty()) csv_.emplace(csv_file);
 }
 
-void WallFigures::add(const FrameSkew& skew) {
-  if (skew.tiles >= 2) keep(skews_ms_, 1e3 * seconds(skew.skew));
+void WallFigures::begun(const FrameOrigin& origin, std::optional<TrackingLevel> level) {
+  constexpr std::size_t kKept = 256;
+  begun_[++frames_] = {origin, level};
+  if (begun_.size() > kKept) forget_before(std::next(begun_.begin())->first);
+  if (last_begun_) keep(gaps_ms_, milliseconds(origin.tick_time - *last_begun_));
+  last_begun_ = origin.tick_time;
+  if (origin.capture_time)
+    keep(parts_ms_[static_cast<std::size_t>(Part::capture_age)],
+         milliseconds(origin.tick_time - *origin.capture_time));
+  keep(parts_ms_[static_cast<std::size_t>(Part::solve)],
+       milliseconds(origin.eye_time - origin.tick_time));
+  reports_.follows(level);
+}
+
+void WallFigures::forget_before(std::uint64_t number) {
+  while (!begun_.empty() && begun_.begin()->first < number) {
+    write(begun_.begin()->first, begun_.begin()->second, nullptr);
+    begun_.erase(begun_.begin());
+  }
+}
+
+void WallFigures::write(std::uint64_t number, const Begun& begun, const FrameSkew* skew) {
+  if (!csv_) return;
+  FrameLine line{.number = number, .tick = begun.origin.tick_time, .level = begun.level};
+  if (skew) {
+    line.tiles = skew->swaps.size();
+    line.last_tile = skew->last().tile;
+    line.parts = parts_of(begun.origin, skew->last().parts, skew->last().shown, display_);
+    line.skew = skew->skew();
+  } else {
+    line.parts = parts_of(begun.origin, {}, begun.origin.eye_time, {});
+  }
+  csv_->add(line);
+}
+
+void WallFigures::add(const FrameSkew& skew, Time now) {
   const auto found = begun_.find(skew.number);
-  if (found == begun_.end()) return;
-  const double light_s = seconds(skew.last_shown - found->second);
+  if (found == begun_.end()) return;  // too late
+  if (skew.swaps.size() >= 2) keep(skews_ms_, milliseconds(skew.skew()));
+  forget_before(skew.number);
+  const FrameOrigin origin = found->second.origin;
+  write(skew.number, found->second, &skew);
+  begun_.erase(found);
+  const double light_s = seconds(skew.last().shown - origin.tick_time);
   to_light_s_ += 0.1 * (std::clamp(light_s, 0.0, 1.0) - to_light_s_);
   keep(to_light_ms_, 1e3 * light_s);
-  begun_.erase(begun_.begin(), std::next(found));
+  const FrameParts parts = parts_of(origin, skew.last().parts, skew.last().shown, display_);
+  for (auto part = static_cast<std::size_t>(Part::publish); part < kParts; ++part)
+    keep(parts_ms_[part], milliseconds(parts.durations[part]));
+  if (parts.tracked) keep(to_photon_ms_, milliseconds(parts.motion_to_photon()));
+  reports_.add(skew, origin, display_, now);
 }
 
-void WallFigures::add(const MemberEvent& event) { ++changes_[event.change]; }
+void WallFigures::add(const MemberEvent& event) {
+  ++changes_[event.change];
+  reports_.add(event);
+}
 
 std::string WallFigures::table() const {
   const auto count = [&](MemberChange change) {
@@ -83,9 +112,12 @@ std::string WallFigures::table() const {
       count(MemberChange::restarted));
   text += fmt::format("  {:<24}{:>9}{:>9}{:>9}\n", "", "p50", "p99", "max");
   text += row("between frames", gaps_ms_);
-  if (!capture_ages_ms_.empty()) text += row("capture to tick", capture_ages_ms_);
-  text += row("finding the eye", solves_ms_) + row("tick to the last swap", to_light_ms_) +
-          row("skew of the swaps", skews_ms_);
+  for (int part = 0; part < kParts; ++part)
+    if (const auto& values = parts_ms_[static_cast<std::size_t>(part)]; !values.empty())
+      text += row(std::string(name_of(static_cast<Part>(part))).c_str(), values);
+  text += row("tick to the last swap", to_light_ms_);
+  if (!to_photon_ms_.empty()) text += row("motion to photon", to_photon_ms_);
+  text += row("skew of the swaps", skews_ms_);
   return text;
 }
 
@@ -94,13 +126,22 @@ std::string WallFigures::json() const {
     const auto found = changes_.find(change);
     return found == changes_.end() ? 0 : found->second;
   };
+  const auto part = [&](Part which) -> const std::vector<double>& {
+    return parts_ms_[static_cast<std::size_t>(which)];
+  };
+  const std::string parts =
+      fmt::format("{},{},{},{},{},{}", json_row("publish", part(Part::publish)),
+                  json_row("pickup", part(Part::pickup)), json_row("draw", part(Part::draw)),
+                  json_row("barrier", part(Part::barrier)), json_row("swap", part(Part::swap)),
+                  json_row("display", part(Part::display)));
   std::string text = fmt::format(
       "{{\"frames\":{},\"seconds\":{:.3f},\"evicted\":{},\"lost\":{},\"restarted\":{},"
-      "\"milliseconds\":{{{},{},{},{},{}}},\"tiles\":{{",
+      "\"milliseconds\":{{{},{},{},{},{},{},{}}},\"tiles\":{{",
       frames_, seconds(length), count(MemberChange::evicted), count(MemberChange::lost),
       count(MemberChange::restarted), json_row("between_frames", gaps_ms_),
-      json_row("capture_to_tick", capture_ages_ms_), json_row("solve", solves_ms_),
-      json_row("tick_to_last_swap", to_light_ms_), json_row("skew", skews_ms_));
+      json_row("capture_to_tick", part(Part::capture_age)), json_row("solve", part(Part::solve)),
+      parts, json_row("tick_to_last_swap", to_light_ms_),
+      json_row("motion_to_photon", to_photon_ms_), json_row("skew", skews_ms_));
   std::string comma;
   for (const auto& [name, tile] : tiles) {
     text += fmt::format("{}{}:{{\"locked\":{},\"presented\":{},\"frames_per_s\":{:.2f}}}", comma,

@@ -1,12 +1,15 @@
-// What a run of the wall's master measured: frames, waits, skew of the swaps, and how long light
-// takes from a tick.
+// What a run of the wall's master measured: frames, the parts of motion to photon, and skew of the
+// swaps; at the end as a table, while it runs as reports to all and as lines of a file.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/frame_csv.h"
+#include "app/wall_reports.h"
 #include "cluster/wall_master.h"
 
 namespace vindu::app {
@@ -16,9 +19,21 @@ class WallFigures {
   Duration length{};
   std::map<std::string, TileReport> tiles{};  ///< in the end
 
-  void begun(Time now, std::optional<Duration> capture_age, Duration solve);
-  void add(const FrameSkew& skew);
+  /// `display`: from a swap to the light. `csv_file`: empty: none; throws Error when it cannot be
+  /// written.
+  WallFigures(const std::vector<std::string>& names, Duration display, const std::string& csv_file);
+
+  /// `level`: of the head that the eye is of; empty where none is tracked.
+  void begun(const FrameOrigin& origin, std::optional<TrackingLevel> level);
+  void add(const FrameSkew& skew, Time now);
   void add(const MemberEvent& event);
+  /// What to tell everybody now, if anything.
+  std::optional<ReportMessage> report(Time now,
+                                      const std::map<std::string, TileReport>& tiles_now) {
+    return reports_.next(now, tiles_now);
+  }
+  /// Frames of which nothing more will be heard.
+  void end() { forget_before(frames_ + 1); }
 
   std::uint64_t frames() const { return frames_; }
   /// From a tick to the last tile's swap: a running mean.
@@ -28,10 +43,22 @@ class WallFigures {
   std::string json() const;
 
  private:
+  struct Begun {
+    FrameOrigin origin{};
+    std::optional<TrackingLevel> level{};
+  };
+
+  void forget_before(std::uint64_t number);
+  void write(std::uint64_t number, const Begun& begun, const FrameSkew* skew);
+
+  Duration display_;
+  std::optional<FrameCsv> csv_;
+  WallReports reports_;
   std::uint64_t frames_ = 0;
-  std::map<std::uint64_t, Time> begun_;  // frames whose swaps are not known yet
+  std::map<std::uint64_t, Begun> begun_;  // frames whose swaps are not known yet
   double to_light_s_ = 1 / 60.0;
-  std::vector<double> skews_ms_, to_light_ms_, capture_ages_ms_, solves_ms_, gaps_ms_;
+  std::vector<double> skews_ms_, to_light_ms_, to_photon_ms_, gaps_ms_;
+  std::array<std::vector<double>, kParts> parts_ms_;
   std::optional<Time> last_begun_;
   std::map<MemberChange, std::uint64_t> changes_;
 };

@@ -9,7 +9,9 @@
 #include <string>
 #include <variant>
 
+#include "core/frame_parts.h"
 #include "core/frame_state.h"
+#include "core/frame_tally.h"
 #include "core/log.h"
 #include "core/pose.h"
 #include "core/site.h"
@@ -17,12 +19,13 @@
 namespace vindu {
 
 /// Two Vindus understand each other when this is equal; it names every topic.
-constexpr int kProtocolVersion = 1;
+constexpr int kProtocolVersion = 2;
 
 /// Master to tiles, repeated: whole and idempotent, the newest is all that a tile needs.
 struct FrameMessage {
   std::uint64_t epoch = 0;  ///< the master's incarnation; not 0
   FrameState newest{};
+  FrameOrigin origin{};                ///< of `newest`
   std::uint64_t released = 0;          ///< highest frame to swap to; 0: none yet
   std::optional<Time> present_time{};  ///< of `released`, the master's clock; empty: at once
   std::uint64_t scene_revision = 0;    ///< that `newest` is of
@@ -38,11 +41,23 @@ struct ReadyMessage {
   std::uint64_t epoch = 0;        ///< not 0
   std::uint64_t number = 0;       ///< drawn and ready to be shown; not 0
   std::uint64_t presented = 0;    ///< newest frame that was swapped; 0: none
-  Time presented_time{};          ///< of that swap; the tile's clock, as all but the next
+  Time presented_time{};          ///< of that swap; the tile's clock, as all but frame_sent_time
+  TileParts presented_parts{};    ///< of that frame
   Duration draw_time{};
   Time frame_sent_time{};      ///< of the newest frame message, as it says; the master's clock
   Time frame_received_time{};  ///< of the same
   Time sent_time{};
+};
+
+/// What a process' tiles take together, and what it draws for them.
+struct DrawFigures {
+  double draw_ms = 0;           ///< of a frame, until the GPU was done
+  double gpu_ms = 0;            ///< by the GPU's own timer; 0: not known
+  std::uint64_t triangles = 0;  ///< of a frame's scenes, over the tiles
+  double culled_share = 0;      ///< of them, in parts that no tile sees; 0 to 1
+  double memory_bytes = 0;      ///< of the process, that is in use
+
+  bool operator==(const DrawFigures&) const = default;
 };
 
 enum class TileState { loading, ready, evicted, failed };
@@ -68,6 +83,19 @@ struct StatusMessage {
   std::string renderer{};      ///< GL_RENDERER
   std::string version{};
   std::string error{};  ///< the last one; empty: none
+  DrawFigures draw{};
+};
+
+/// Master to all, every second: what it alone knows of a tile, or of the wall.
+struct ReportMessage {
+  std::string tile{};        ///< empty: the whole wall
+  std::uint64_t epoch = 0;   ///< not 0
+  FrameSummary frames{};     ///< wall: of each frame the tile that swapped last
+  std::uint32_t locked = 0;  ///< tiles in the frame lock; tile: 0 or 1
+  std::uint32_t evictions = 0;
+  std::uint32_t restarts = 0;
+  TrackingLevel level = TrackingLevel::lost;  ///< of the head that the wall follows
+  std::string event{};                        ///< the last of these; empty: none
 };
 
 /// Master to tiles: what to load. Files travel otherwise.
@@ -117,7 +145,7 @@ struct EventMessage {
   std::string text{};
 };
 
-enum class Verb { show, mode, go_to, pattern, blank, stop };
+enum class Verb { show, mode, go_to, pattern, blank, stop, overlay };
 
 /// Consoles to the master and tiles. An argument is data: it never reaches a shell.
 struct CommandMessage {

@@ -29,7 +29,11 @@ class TileBarrier {
 
   /// When the drawn frame is to be shown; empty while it is not released, or was shown already.
   std::optional<Time> show_time(Time now) const;
-  void showed(Time now);
+  /// `began`: when the swap was called; `now`: when it was done.
+  void showed(Time began, Time now);
+  const TileParts& presented_parts() const { return presented_parts_; }
+  /// All parts of the frame that was shown last, on this tile's clock; empty before the first.
+  std::optional<FrameParts> presented_frame(Duration display) const;
 
   /// What the master has to know, but for the tile's name. To be repeated while a drawn frame is
   /// not released: either message may be lost.
@@ -55,6 +59,10 @@ class TileBarrier {
   std::uint64_t drawn_ = 0, presented_ = 0, missed_ = 0;
   Time presented_time_{};
   Duration draw_time_{};
+  Time heard_newest_{}, drew_{};  // heard of the newest frame; was done with the drawn one
+  FrameOrigin drawn_origin_;
+  Duration pickup_{};
+  TileParts presented_parts_;
 };
 
 }  // namespace vindu

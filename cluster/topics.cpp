@@ -21,6 +21,7 @@ constexpr std::array<TopicRules, kTopics> kRules = {{
     {.name = "command", .reliable = true, .depth = 32},
     {.name = "answer", .reliable = true, .depth = 32},
     {.name = "log", .reliable = true, .depth = 100},
+    {.name = "report", .reliable = true, .for_late_readers = true},
     {.name = "presence", .reliable = true, .depth = 16},
 }};
 
@@ -43,6 +44,7 @@ struct KeyOf {
   std::string operator()(const CommandMessage& message) const { return message.sender; }
   std::string operator()(const AnswerMessage& message) const { return message.from; }
   std::string operator()(const LogMessage& message) const { return message.source; }
+  std::string operator()(const ReportMessage& message) const { return message.tile; }
   std::string operator()(const Presence& message) const { return message.who.name; }
 };
 

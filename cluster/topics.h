@@ -64,14 +64,15 @@ enum class Topic {
   command,
   answer,
   log,
+  report,
   presence
 };
-constexpr int kTopics = 12;
+constexpr int kTopics = 13;
 
 /// In the order of Topic.
-using Message =
-    std::variant<FrameMessage, ReadyMessage, StatusMessage, SceneMessage, WallMessage, PoseMessage,
-                 CameraMessage, EventMessage, CommandMessage, AnswerMessage, LogMessage, Presence>;
+using Message = std::variant<FrameMessage, ReadyMessage, StatusMessage, SceneMessage, WallMessage,
+                             PoseMessage, CameraMessage, EventMessage, CommandMessage,
+                             AnswerMessage, LogMessage, ReportMessage, Presence>;
 static_assert(std::variant_size_v<Message> == kTopics);
 
 inline Topic topic_of(const Message& message) { return static_cast<Topic>(message.index()); }

@@ -34,15 +34,23 @@ Time WallMaster::wake_time() const {
   return barrier_.open() ? Time::max() : std::min(barrier_.deadline(), published_ + kRepeat);
 }
 
-void WallMaster::begin(const FrameState& state, Time now) {
+void WallMaster::begin(const FrameState& state, Time now, const FrameOrigin& origin) {
+  origin_ = origin;
   barrier_.begin(state, shown_scene_, now);
   ++newest_;
   barrier_.settle(now);  // with nobody to wait for
   publish(now);
 }
 
+void WallMaster::report(ReportMessage report) {
+  report.epoch = options_.epoch;
+  bus_.publish(report);
+}
+
 void WallMaster::publish(Time now) {
-  bus_.publish(barrier_.message(now));
+  FrameMessage message = barrier_.message(now);
+  message.origin = origin_;
+  bus_.publish(message);
   published_ = now;
 }
 
@@ -71,20 +79,19 @@ void WallMaster::note_swap(const ReadyMessage& ready, TileReport& report) {
   shown = ready.presented;
   if (!report.clock || !report.locked) return;
   const Time time = ready.presented_time - report.clock->offset;
-  Swaps& swaps = swaps_[ready.presented];
-  swaps.first = swaps.tiles == 0 ? time : std::min(swaps.first, time);
-  swaps.last = swaps.tiles == 0 ? time : std::max(swaps.last, time);
-  swaps.uncertainty = std::max(swaps.uncertainty, report.clock->uncertainty);
-  ++swaps.tiles;
+  FrameSkew& frame = swaps_[ready.presented];
+  frame.number = ready.presented;
+  frame.uncertainty = std::max(frame.uncertainty, report.clock->uncertainty);
+  const auto later = std::ranges::upper_bound(frame.swaps, time, {}, &TileSwap::shown);
+  frame.swaps.insert(later, {ready.tile, time, ready.presented_parts});
 }
 
 std::vector<FrameSkew> WallMaster::take_skews() {
   constexpr std::uint64_t kLate = 8;  // frames later nobody reports any more
   std::vector<FrameSkew> skews;
   while (!swaps_.empty() && (swaps_.begin()->first + kLate < newest_ ||
-                             swaps_.begin()->second.tiles >= barrier_.active())) {
-    const auto& [number, swaps] = *swaps_.begin();
-    skews.push_back({number, swaps.tiles, swaps.last - swaps.first, swaps.last, swaps.uncertainty});
+                             swaps_.begin()->second.swaps.size() >= barrier_.active())) {
+    skews.push_back(std::move(swaps_.begin()->second));
     swaps_.erase(swaps_.begin());
   }
   return skews;

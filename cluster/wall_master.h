@@ -18,24 +18,30 @@ struct TileReport {
   std::optional<StatusMessage> status{};  ///< empty: never heard of
   bool present = false;
   bool locked = false;  ///< the others wait for it
-  std::uint32_t evictions = 0;
-  std::uint32_t restarts = 0;
   Duration draw_time{};
   std::optional<OffsetEstimate> clock{};  ///< the tile's, against the master's
+};
+
+/// A tile's swap.
+struct TileSwap {
+  std::string tile{};
+  Time shown{};  ///< on the master's clock
+  TileParts parts{};
 };
 
 /// The swaps of one frame, over tiles.
 struct FrameSkew {
   std::uint64_t number = 0;
-  std::size_t tiles = 0;
-  Duration skew{};         ///< between the first and the last, on the master's clock
-  Time last_shown{};       ///< on the master's clock
-  Duration uncertainty{};  ///< of the clocks; 0 where all tiles are on the master's host
+  std::vector<TileSwap> swaps{};  ///< the first one first; at least one
+  Duration uncertainty{};         ///< of the clocks; 0 where all tiles are on the master's host
+
+  const TileSwap& last() const { return swaps.back(); }
+  Duration skew() const { return last().shown - swaps.front().shown; }
 };
 
 class WallMaster {
  public:
-  static Topics publishes() { return {Topic::frame, Topic::scene}; }
+  static Topics publishes() { return {Topic::frame, Topic::scene, Topic::report}; }
   static Topics hears() { return {Topic::ready, Topic::tile_status, Topic::presence}; }
 
   struct Options {
@@ -56,7 +62,7 @@ class WallMaster {
 
   /// Whether the next frame may begin.
   bool open() const { return barrier_.open(); }
-  void begin(const FrameState& state, Time now);
+  void begin(const FrameState& state, Time now, const FrameOrigin& origin = {});
 
   /// Tiles load it, and change to it in one frame when none is left that still loads. A scene that
   /// was asked for before and not shown yet is given up.
@@ -66,6 +72,9 @@ class WallMaster {
   std::vector<std::string> loading() const;
   std::uint64_t shown_scene() const { return shown_scene_; }
 
+  /// What the master measured, to all who want to know; the epoch is given here.
+  void report(ReportMessage report);
+
   const std::map<std::string, TileReport>& tiles() const { return tiles_; }
   std::vector<MemberEvent> take_events() { return barrier_.take_events(); }
   /// Of frames whose tiles have all reported, or that are too old to wait for more.
@@ -73,12 +82,6 @@ class WallMaster {
   std::size_t active() const { return barrier_.active(); }
 
  private:
-  struct Swaps {
-    Time first{}, last{};  // on the master's clock
-    std::size_t tiles = 0;
-    Duration uncertainty{};
-  };
-
   void hear(const ReadyMessage& ready, Time now);
   void hear(const StatusMessage& status);
   void hear(const Presence& presence);
@@ -92,10 +95,11 @@ class WallMaster {
   std::map<std::string, TileReport> tiles_;
   std::map<std::string, ClockOffset> clocks_;
   std::map<std::string, std::uint64_t>
-      shown_;                                // newest frame that each tile has said to have shown
-  std::map<std::uint64_t, Swaps> swaps_;     // by frame
-  std::uint64_t asked_scene_, shown_scene_;  // from the epoch on: no two masters' are alike
+      shown_;                                 // newest frame that each tile has said to have shown
+  std::map<std::uint64_t, FrameSkew> swaps_;  // by frame
+  std::uint64_t asked_scene_, shown_scene_;   // from the epoch on: no two masters' are alike
   std::uint64_t newest_ = 0;
+  FrameOrigin origin_;  // of the newest
   Time published_{};
 };
 

@@ -54,8 +54,8 @@ void WallTile::say_ready(Time now) {
 
 // Said at once: the swap's time, and with it the skew, comes with the next frame's readiness else,
 // which a tile that stops would never say.
-void WallTile::showed(Time now) {
-  barrier_.showed(now);
+void WallTile::showed(Time began, Time now) {
+  barrier_.showed(began, now);
   say_ready(now);
   ++frames_;
 }

@@ -35,9 +35,15 @@ class WallTile {
 
   const FrameMessage* to_draw() const { return barrier_.to_draw(); }
   void drew(std::uint64_t number, Time started, Time now);
-  void showed(Time now);
+  void showed(Time began, Time now);
   /// Something else was drawn over a frame that was not shown yet: it comes again.
   void spoiled() { barrier_.spoiled(); }
+  /// Of the frame that was shown last; `display`: from the swap to the light.
+  std::optional<FrameParts> presented_frame(Duration display) const {
+    return barrier_.presented_frame(display);
+  }
+  /// Goes out with the next status.
+  void measured(const DrawFigures& figures) { status_.draw = figures; }
 
   /// The newest scene that the master asks for, once.
   std::optional<SceneMessage> take_scene() { return std::exchange(scene_, std::nullopt); }

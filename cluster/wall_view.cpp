@@ -29,13 +29,42 @@ std::string span_of(const Group& group, Get get) {
   return least == most ? fmt::format("{}", least) : fmt::format("{}-{}", least, most);
 }
 
-using Row = std::array<std::string, 7>;
+/// "0.21-0.43", of those that know; a dash where nobody does.
+template <class Get>
+std::string ms_span_of(const Group& group, int digits, Get get) {
+  double least = 0, most = 0;
+  bool known = false;
+  for (const TileNow* tile : group.tiles) {
+    const std::optional<double> value_ms = get(*tile);
+    if (!value_ms) continue;
+    least = known ? std::min(least, *value_ms) : *value_ms;
+    most = known ? std::max(most, *value_ms) : *value_ms;
+    known = true;
+  }
+  if (!known) return "-";
+  const std::string low = fmt::format("{:.{}f}", least, digits),
+                    high = fmt::format("{:.{}f}", most, digits);
+  return low == high ? low : low + "-" + high;
+}
+
+std::optional<double> gpu_ms(const TileNow& tile) {
+  return tile.last.draw.gpu_ms > 0 ? std::optional(tile.last.draw.gpu_ms) : std::nullopt;
+}
+
+std::optional<double> skew_ms(const TileNow& tile) {
+  if (!tile.report || tile.report->frames.frames == 0) return std::nullopt;
+  return tile.report->frames.skew_ms.p99;
+}
+
+using Row = std::array<std::string, 9>;
 
 Row row_of(const Group& group) {
   return {fold_names(group.names),
           group.tiles.front()->state,
           span_of(group, [](const TileNow* tile) { return tile->last.presented; }),
           span_of(group, [](const TileNow* tile) { return std::lround(tile->last.frames_per_s); }),
+          ms_span_of(group, 1, gpu_ms),
+          ms_span_of(group, 2, skew_ms),
           span_of(group, [](const TileNow* tile) { return tile->last.late_frames; }),
           span_of(group, [](const TileNow* tile) { return tile->restarts; }),
           group.tiles.front()->last.error};
@@ -48,7 +77,8 @@ std::vector<Row> rows_of(const WallNow& wall) {
     group.names.push_back(tile.name);
     group.tiles.push_back(&tile);
   }
-  std::vector<Row> rows{{"TILES", "STATE", "FRAME", "FPS", "LATE", "RESTARTS", "LAST ERROR"}};
+  std::vector<Row> rows{
+      {"TILES", "STATE", "FRAME", "FPS", "GPU ms", "SKEW ms", "LATE", "RESTARTS", "LAST ERROR"}};
   for (const auto& [key, group] : groups) rows.push_back(row_of(group));
   return rows;
 }
@@ -71,8 +101,31 @@ std::string master_line(const WallNow& wall) {
   if (!wall.master) return "no master\n";
   std::string text = "master on " + wall.master->host;
   if (wall.frame == 0) return text + ", no frame yet\n";
-  return text + fmt::format(": frame {}, {:.1f} fps, {} of {} tiles in the frame lock\n",
-                            wall.frame, wall.frames_per_s, wall.active_tiles, wall.tiles.size());
+  text += fmt::format(": frame {}, {:.1f} fps, {} of {} tiles in the frame lock", wall.frame,
+                      wall.frames_per_s, wall.active_tiles, wall.tiles.size());
+  if (wall.report && wall.report->frames.tracked)
+    text += fmt::format(", eye {}", name_of(wall.report->level));
+  return text + "\n";
+}
+
+std::string quantiles_text(const char* what, const Quantiles& ms, int digits) {
+  return fmt::format("  {:<17}{:>8.{}f}{:>8.{}f}{:>8.{}f} ms\n", what, ms.p50, digits, ms.p99,
+                     digits, ms.max, digits);
+}
+
+/// What the master measured over the last seconds: skew, and motion to photon with its parts.
+std::string report_text(const WallNow& wall) {
+  if (!wall.master || !wall.report || wall.report->frames.frames == 0) return "";
+  const FrameSummary& frames = wall.report->frames;
+  std::string text = fmt::format("  {:<17}{:>8}{:>8}{:>8}\n", "", "p50", "p99", "max");
+  text += quantiles_text("skew of swaps", frames.skew_ms, 2);
+  text += quantiles_text(frames.tracked ? "motion to photon" : "tick to photon",
+                         frames.motion_to_photon_ms, 1);
+  text += "  mean of parts:";
+  for (int i = frames.tracked ? 0 : 1; i < kParts; ++i)
+    text += fmt::format("{} {} {:.1f}", i > (frames.tracked ? 0 : 1) ? "," : "",
+                        name_of(static_cast<Part>(i)), frames.mean_ms[static_cast<std::size_t>(i)]);
+  return text + " ms\n";
 }
 
 }  // namespace
@@ -88,6 +141,7 @@ void WallView::poll(Bus& bus, Time now) {
   for (const Presence& presence : bus.take<Presence>()) hear(presence);
   for (const StatusMessage& status : bus.take<StatusMessage>()) hear(status);
   for (const FrameMessage& frame : bus.take<FrameMessage>()) hear(frame, now);
+  for (const ReportMessage& report : bus.take<ReportMessage>()) hear(report);
 }
 
 TileNow* WallView::find(const std::string& tile) {
@@ -130,8 +184,17 @@ void WallView::hear(const FrameMessage& frame, Time now) {
     now_.frames_per_s = static_cast<double>(now_.frame - beats_.front().number) / passed_s;
 }
 
+void WallView::hear(const ReportMessage& report) {
+  if (report.epoch < now_.epoch) return;  // of a master that was replaced
+  if (report.tile.empty()) now_.report = report;
+  TileNow* const tile = find(report.tile);
+  if (!tile) return;
+  tile->report = report;
+  tile->restarts = std::max(tile->restarts, static_cast<int>(report.restarts));
+}
+
 std::string table_of(const WallNow& wall) {
-  std::string text = master_line(wall) + text_of(rows_of(wall));
+  std::string text = master_line(wall) + report_text(wall) + text_of(rows_of(wall));
   for (const std::string& tracker : wall.trackers) text += "tracker " + tracker + "\n";
   for (const std::string& complaint : wall.complaints) text += complaint + "\n";
   return text;

@@ -15,9 +15,10 @@ namespace vindu {
 /// A tile as it is now.
 struct TileNow {
   std::string name{};
-  std::string state = "missing";  ///< or silent, gone, or a TileState's name
-  StatusMessage last{};           ///< the newest that it said
-  int restarts = 0;               ///< since this console listens
+  std::string state = "missing";          ///< or silent, gone, or a TileState's name
+  StatusMessage last{};                   ///< the newest that it said
+  std::optional<ReportMessage> report{};  ///< the master's newest about it
+  int restarts = 0;                       ///< as the master counted, or since this console listens
 
   bool good() const { return state == name_of(TileState::ready); }
 };
@@ -25,10 +26,11 @@ struct TileNow {
 struct WallNow {
   std::optional<Participant> master{};
   std::uint64_t epoch = 0;
-  std::uint64_t frame = 0;         ///< newest; 0: none was heard
-  double frames_per_s = 0;         ///< over the last seconds
-  std::uint32_t active_tiles = 0;  ///< in the frame lock
-  std::vector<TileNow> tiles{};    ///< in the wall file's order
+  std::uint64_t frame = 0;                ///< newest; 0: none was heard
+  double frames_per_s = 0;                ///< over the last seconds
+  std::uint32_t active_tiles = 0;         ///< in the frame lock
+  std::optional<ReportMessage> report{};  ///< the master's newest about the whole wall
+  std::vector<TileNow> tiles{};           ///< in the wall file's order
   std::vector<std::string> trackers{};
   std::vector<std::string> complaints{};  ///< about other versions
 
@@ -39,7 +41,9 @@ struct WallNow {
 /// Bound to one thread.
 class WallView {
  public:
-  static Topics hears() { return {Topic::tile_status, Topic::presence, Topic::frame}; }
+  static Topics hears() {
+    return {Topic::tile_status, Topic::presence, Topic::frame, Topic::report};
+  }
 
   /// `tiles`: names of those that should be there. `self`: who listens.
   WallView(const std::vector<std::string>& tiles, Participant self);
@@ -49,6 +53,7 @@ class WallView {
   void hear(const StatusMessage& status);
   void hear(const Presence& presence);
   void hear(const FrameMessage& frame, Time now);
+  void hear(const ReportMessage& report);
 
   const WallNow& now() const { return now_; }
 

@@ -26,8 +26,8 @@ struct Navigation {
 /// What is drawn over the scene, as bits.
 enum Overlay : std::uint32_t {
   kFrameCounter = 1,  ///< the frame's number, large enough to be read from the pixels again
+  kStatistics = 2,    ///< of each tile in its own corner, and of the wall in one
 };
-constexpr std::uint32_t kAllOverlays = kFrameCounter;
 
 struct FrameState {
   std::uint64_t number = 0;

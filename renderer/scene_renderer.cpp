@@ -79,6 +79,14 @@ gl::Program scene_program(Style style, unsigned kind) {
 
 }  // namespace
 
+DrawCount& DrawCount::operator+=(const DrawCount& other) {
+  draws += other.draws;
+  culled += other.culled;
+  triangles += other.triangles;
+  culled_triangles += other.culled_triangles;
+  return *this;
+}
+
 SceneRenderer::SceneRenderer(Style style)
     : style_(style),
       scene_programs_{scene_program(style, 0), scene_program(style, 1), scene_program(style, 2),
@@ -125,11 +133,10 @@ void SceneRenderer::draw_scene(const View& view, const GpuScene& scene, bool ble
   scene.bind();
   std::vector<Batch> batches;
   for (const GpuScene::Draw* draw : sorted_draws(scene, view.eye_in_world, blended)) {
-    ++count.draws;
-    if (outside(view.clip_from_world, scene.bounds_in_world(*draw)))
-      ++count.culled;
-    else
-      add_to_batch(*draw, blended, batches);
+    const bool culled = outside(view.clip_from_world, scene.bounds_in_world(*draw));
+    const std::uint64_t triangles = draw->mesh.index_count / 3;
+    count += {1, culled, triangles, culled ? triangles : 0};
+    if (!culled) add_to_batch(*draw, blended, batches);
   }
   for (const Batch& batch : batches) {
     scene_programs_[kind_of(*batch.first)].use();

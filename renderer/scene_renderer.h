@@ -25,6 +25,10 @@ struct Panel {
 struct DrawCount {
   int draws = 0;
   int culled = 0;
+  std::uint64_t triangles = 0;         ///< of all draws
+  std::uint64_t culled_triangles = 0;  ///< of the culled ones
+
+  DrawCount& operator+=(const DrawCount& other);
 };
 
 class SceneRenderer {

@@ -82,6 +82,8 @@ class Window : public Surface {
   /// Pointer from -1 to 1 across the content, y up; wheel turns since the last call.
   virtual Vec2 pointer() const = 0;
   virtual double take_wheel() = 0;
+  /// How often F1 was pressed since the last call.
+  virtual int take_f1() = 0;
   /// Paths that were dropped onto the window since the last call.
   virtual std::optional<std::string> take_dropped_file() = 0;
 };

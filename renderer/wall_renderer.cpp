@@ -90,6 +90,7 @@ WallFrame WallRenderer::draw(const FrameState& state, const Tile* only) {
   for (std::size_t index = 0; index < wall_.tiles.size(); ++index)
     if (!only || only->name == wall_.tiles[index].name) wanted.push_back(index);
   WallFrame frame;
+  frame.tile_counts.resize(wall_.tiles.size());
   const std::size_t together = static_cast<std::size_t>(cells_x_) * cells_y_;
   for (std::size_t first = 0; first < wanted.size(); first += together) {
     const std::size_t count = std::min(together, wanted.size() - first);
@@ -116,8 +117,8 @@ void WallRenderer::draw_together(const FrameState& state, std::span<const std::s
     }
     canvas_->draw_into(cell(order));
     const DrawCount count = renderer_.draw(*view, scenes);
-    frame.count.draws += count.draws;
-    frame.count.culled += count.culled;
+    frame.count += count;
+    frame.tile_counts[tiles[order]] = count;
   }
   for (std::size_t order = 0; order < tiles.size(); ++order) {
     const RectPx& place = layout_.tiles[tiles[order]];

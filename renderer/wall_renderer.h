@@ -24,7 +24,8 @@ struct WallLayout {
 WallLayout layout_of(const Wall& wall, double scale);
 
 struct WallFrame {
-  DrawCount count;
+  DrawCount count{};                     ///< of all tiles
+  std::vector<DrawCount> tile_counts{};  ///< in the order of Wall::tiles; those not drawn: 0
   std::vector<std::string> black_tiles;  ///< the eye is at or behind their plane
 };
 

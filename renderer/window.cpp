@@ -106,6 +106,9 @@ class GlfwWindow final : public Window {
     glfwSetWindowUserPointer(window_, this);
     glfwSetScrollCallback(
         window_, [](GLFWwindow* window, double, double turns) { self(window).wheel_ += turns; });
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+      if (key == GLFW_KEY_F1 && action == GLFW_PRESS) ++self(window).f1_;
+    });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
       if (count > 0) self(window).dropped_ = paths[0];
     });
@@ -156,6 +159,7 @@ class GlfwWindow final : public Window {
             std::clamp(1 - 2 * y / std::max(height, 1), -1.0, 1.0)};
   }
   double take_wheel() override { return std::exchange(wheel_, 0); }
+  int take_f1() override { return std::exchange(f1_, 0); }
   std::optional<std::string> take_dropped_file() override {
     return std::exchange(dropped_, std::nullopt);
   }
@@ -187,6 +191,7 @@ class GlfwWindow final : public Window {
   GLFWwindow* window_ = nullptr;
   gl::Fence swapped_;
   double wheel_ = 0;
+  int f1_ = 0;
   std::optional<std::string> dropped_;
 };
 

@@ -16,6 +16,13 @@ struct Limits {
 };
 constexpr Limits kNotNegative{0, 1e9};
 constexpr Limits kAboveZero{1e-9, 1e9};
+constexpr Limits kShare{0, 1};
+constexpr Limits kBytes{0, 1e18};
+
+/// What is added up never overflows.
+inline bool brief(Duration duration) {
+  return duration < std::chrono::days(1) && duration > -std::chrono::days(1);
+}
 
 template <class Op, class Wire, class Value>
 void rigid_fields(Op& op, Wire& wire, Value& value) {
@@ -37,10 +44,29 @@ void fields(Op& op, Wire& wire, Value& state) {
 }
 
 template <class Op, class Wire, class Value>
+void origin_fields(Op& op, Wire& wire, Value& origin) {
+  op.optional_time(wire.capture_time_ns, origin.capture_time);
+  op.time(wire.tick_time_ns, origin.tick_time);
+  op.time(wire.eye_time_ns, origin.eye_time);
+  op.require(brief(origin.eye_time - origin.tick_time));
+  op.require(!origin.capture_time || brief(origin.tick_time - *origin.capture_time));
+}
+
+template <class Op, class Wire, class Value>
+void parts_fields(Op& op, Wire& wire, Value& parts) {
+  op.duration(wire.pickup_ns, parts.pickup);
+  op.duration(wire.draw_ns, parts.draw);
+  op.duration(wire.barrier_ns, parts.barrier);
+  op.duration(wire.swap_ns, parts.swap);
+  op.require(brief(parts.pickup) && brief(parts.draw) && brief(parts.barrier) && brief(parts.swap));
+}
+
+template <class Op, class Wire, class Value>
 requires std::same_as<std::remove_const_t<Value>, FrameMessage>
 void fields(Op& op, Wire& wire, Value& frame) {
   op.id(wire.epoch, frame.epoch);
   fields(op, wire.newest, frame.newest);
+  origin_fields(op, wire.origin, frame.origin);
   op.count(wire.released, frame.released);
   op.require(frame.released <= frame.newest.number);
   op.optional_time(wire.present_time_ns, frame.present_time);
@@ -58,6 +84,7 @@ void fields(Op& op, Wire& wire, Value& ready) {
   op.id(wire.number, ready.number);
   op.count(wire.presented, ready.presented);
   op.time(wire.presented_time_ns, ready.presented_time);
+  parts_fields(op, wire.presented_parts, ready.presented_parts);
   op.duration(wire.draw_ns, ready.draw_time);
   op.time(wire.frame_sent_time_ns, ready.frame_sent_time);
   op.time(wire.frame_received_time_ns, ready.frame_received_time);
@@ -81,6 +108,41 @@ void fields(Op& op, Wire& wire, Value& status) {
   op.text(wire.renderer, status.renderer);
   op.text(wire.version, status.version);
   op.text(wire.error, status.error);
+  op.number(wire.draw_ms, status.draw.draw_ms, kNotNegative);
+  op.number(wire.gpu_ms, status.draw.gpu_ms, kNotNegative);
+  op.count(wire.triangles, status.draw.triangles);
+  op.number(wire.culled_share, status.draw.culled_share, kShare);
+  op.number(wire.memory_bytes, status.draw.memory_bytes, kBytes);
+}
+
+template <class Op, class Wire, class Value>
+void quantile_fields(Op& op, Wire& wire, Value& quantiles) {
+  op.number(wire.p50, quantiles.p50);
+  op.number(wire.p99, quantiles.p99);
+  op.number(wire.max, quantiles.max);
+}
+
+template <class Op, class Wire, class Value>
+void summary_fields(Op& op, Wire& wire, Value& summary) {
+  op.count(wire.frames, summary.frames);
+  op.number(wire.frames_per_s, summary.frames_per_s, kNotNegative);
+  op.numbers(wire.mean_ms, summary.mean_ms);
+  op.flag(wire.tracked, summary.tracked);
+  quantile_fields(op, wire.motion_to_photon_ms, summary.motion_to_photon_ms);
+  quantile_fields(op, wire.skew_ms, summary.skew_ms);
+}
+
+template <class Op, class Wire, class Value>
+requires std::same_as<std::remove_const_t<Value>, ReportMessage>
+void fields(Op& op, Wire& wire, Value& report) {
+  op.whole_text(wire.tile, report.tile);
+  op.id(wire.epoch, report.epoch);
+  summary_fields(op, wire.frames, report.frames);
+  op.count(wire.locked, report.locked);
+  op.count(wire.evictions, report.evictions);
+  op.count(wire.restarts, report.restarts);
+  op.choice(wire.level, report.level, TrackingLevel::lost);
+  op.text(wire.event, report.event);
 }
 
 template <class Op, class Wire, class Value>
@@ -149,7 +211,7 @@ requires std::same_as<std::remove_const_t<Value>, CommandMessage>
 void fields(Op& op, Wire& wire, Value& command) {
   op.name(wire.sender, command.sender);
   op.id(wire.request, command.request);
-  op.choice(wire.verb, command.verb, Verb::stop);
+  op.choice(wire.verb, command.verb, Verb::overlay);
   op.whole_text(wire.tile, command.tile);
   op.whole_text(wire.argument, command.argument);
 }

@@ -184,6 +184,7 @@ VINDU_WIRE(EventMessage);
 VINDU_WIRE(CommandMessage);
 VINDU_WIRE(AnswerMessage);
 VINDU_WIRE(LogMessage);
+VINDU_WIRE(ReportMessage);
 #undef VINDU_WIRE
 
 }  // namespace vindu::internal

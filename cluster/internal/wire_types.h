@@ -31,6 +31,7 @@ VINDU_WIRE(EventMessage, Event);
 VINDU_WIRE(CommandMessage, Command);
 VINDU_WIRE(AnswerMessage, Answer);
 VINDU_WIRE(LogMessage, Log);
+VINDU_WIRE(ReportMessage, Report);
 #undef VINDU_WIRE
 
 /// Every byte of `wire` is written, padding too. False when the value is one that no reader
@@ -69,6 +70,8 @@ decltype(auto) with_type_of(Topic topic, Use use) {
       return use(static_cast<AnswerMessage*>(nullptr));
     case Topic::log:
       return use(static_cast<LogMessage*>(nullptr));
+    case Topic::report:
+      return use(static_cast<ReportMessage*>(nullptr));
     case Topic::presence:
       break;
   }

@@ -54,12 +54,17 @@ struct ShaderTraits {
   static void destroy(GLuint name) { glDeleteShader(name); }
 };
 
+struct QueryTraits {
+  static void destroy(GLuint name) { glDeleteQueries(1, &name); }
+};
+
 using Buffer = Handle<BufferTraits>;
 using VertexArray = Handle<VertexArrayTraits>;
 using Texture = Handle<TextureTraits>;
 using Renderbuffer = Handle<RenderbufferTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 using Shader = Handle<ShaderTraits>;
+using Query = Handle<QueryTraits>;
 
 inline VertexArray make_vertex_array() {
   GLuint name = 0;

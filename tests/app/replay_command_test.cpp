@@ -68,6 +68,16 @@ class ReplayCommand : public AppTest {
   }
 };
 
+TEST_F(ReplayCommand, TellsThePartsOfMotionToPhotonThatARecordingKnows) {
+  record_and_track_live("a.vrec");
+  const ProcessResult result = vindu({"replay", path("a.vrec"), "--parts"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, ContainsRegex("capture age +[0-9]+\\.[0-9]+ "));
+  EXPECT_THAT(result.out, ContainsRegex("solve +[0-9]+\\.[0-9]+ "));
+  EXPECT_THAT(result.out, HasSubstr("display are not in a recording"));
+  EXPECT_THAT(result.out, Not(HasSubstr("eye_in_wall_m")));
+}
+
 TEST_F(ReplayCommand, TracksTheSamePosesAsWereTrackedLive) {
   const auto eyes = record_and_track_live("a.vrec");
   const ProcessResult result = vindu({"replay", path("a.vrec"), "--track"});

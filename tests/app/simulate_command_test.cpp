@@ -65,6 +65,17 @@ TEST_F(SimulateCommand, ShowsWhatABadLinkCosts) {
   EXPECT_NE(figures_of(good.out, "eye_error_mm"), figures_of(bad.out, "eye_error_mm"));
 }
 
+TEST_F(SimulateCommand, WritesALineForEachFrame) {
+  const ProcessResult result =
+      simulate("a", "0.5", {"--mode", "loop", "--csv", path("frames.csv")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<std::string> lines = lines_of(bytes_of(path("frames.csv")));
+  EXPECT_THAT(result.out, HasSubstr("\"frames\": " + std::to_string(lines.size() - 1) + ","));
+  EXPECT_THAT(lines[0], HasSubstr("frame,time_s,"));
+  EXPECT_THAT(lines[2], ContainsRegex("^2,0.016667,28,,,,0.0000,"));
+  EXPECT_EQ(simulate("a", "0.1", {"--csv", "/no/such/frames.csv"}).exit_code, 1);
+}
+
 TEST_F(SimulateCommand, EndsWithATable) {
   const ProcessResult result = vindu({"simulate", "--clock", "manual", "--seconds", kSettled_s,
                                       "--scale", "0.03", "--out", path("out")});

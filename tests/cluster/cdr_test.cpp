@@ -144,7 +144,8 @@ std::string topic_name(const ::testing::TestParamInfo<Topic>& info) {
 INSTANTIATE_TEST_SUITE_P(Of, MessageCdr,
                          ::testing::Values(Topic::frame, Topic::ready, Topic::tile_status,
                                            Topic::scene, Topic::wall, Topic::pose, Topic::camera,
-                                           Topic::event, Topic::command, Topic::answer, Topic::log),
+                                           Topic::event, Topic::command, Topic::answer, Topic::log,
+                                           Topic::report),
                          topic_name);
 
 TEST(MessageCdr, OfAnEpochOrNumberZeroIsRefused) {

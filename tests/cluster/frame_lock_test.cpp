@@ -171,7 +171,7 @@ TEST(FrameLock, ReleasesAtATimeThatAllKnowWhereItIsTimed) {
   ASSERT_GT(wall.skews.size(), 400u);
   std::vector<double> skew_ms;
   for (const FrameSkew& skew : wall.skews)
-    if (skew.number > 100) skew_ms.push_back(1e3 * seconds(skew.skew));
+    if (skew.number > 100) skew_ms.push_back(1e3 * seconds(skew.skew()));
   std::ranges::sort(skew_ms);
   EXPECT_LT(skew_ms[skew_ms.size() / 2], 1.2);
 }
@@ -297,6 +297,50 @@ TEST(FrameLock, ShowsNoWrongFrameInTenMinutesOfFaults) {
     EXPECT_LE(wall.count(MemberChange::evicted), faults);
     EXPECT_GT(static_cast<double>(wall.begun()), 0.95 * 60 * 200);
   }
+}
+
+TEST(FrameLock, AccountsForAllTimeFromTheTickToTheSwapOnEveryTile) {
+  SimulatedWall wall(4);
+  for (auto& tile : wall.tiles) tile->spec.refresh_hz = 1000;
+  wall.tiles[2]->spec.draw_ms = 12;
+  wall.run(5);
+  std::size_t checked = 0;
+  for (const FrameSkew& frame : wall.skews) {
+    if (frame.number < 30 || frame.swaps.size() < 4) continue;
+    const Time tick = wall.ticks.at(frame.number);
+    Time before{};
+    for (const TileSwap& swap : frame.swaps) {
+      EXPECT_GE(swap.shown, before);  // in order
+      before = swap.shown;
+      const FrameParts parts =
+          parts_of({.tick_time = tick, .eye_time = tick}, swap.parts, swap.shown, milliseconds(16));
+      EXPECT_EQ(parts.motion_to_photon(), swap.shown - tick + milliseconds(16));
+      const double slow_ms = swap.tile == "tile-2-0" ? 12 : 8;
+      EXPECT_GE(parts[Part::draw], from_seconds(1e-3 * slow_ms));
+      EXPECT_LE(parts[Part::draw], from_seconds(1e-3 * (slow_ms + 2)));
+      EXPECT_GE(parts[Part::barrier], Duration{});
+      // The clocks of two hosts are known to within the network's delay.
+      EXPECT_GE(parts[Part::publish], -milliseconds(1));
+      if (swap.tile == "tile-2-0") {
+        EXPECT_LT(parts[Part::barrier], milliseconds(3));  // nobody is waited for longer
+      }
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 500u);
+}
+
+TEST(FrameLock, LetsATileReckonItsOwnFrames) {
+  SimulatedWall wall(2);
+  for (auto& tile : wall.tiles) tile->spec.refresh_hz = 1000;
+  wall.run(2);
+  const auto parts = wall.tiles[1]->tile().presented_frame(milliseconds(5));
+  ASSERT_TRUE(parts);
+  EXPECT_TRUE(parts->tracked);
+  EXPECT_EQ((*parts)[Part::capture_age], milliseconds(7));
+  EXPECT_EQ((*parts)[Part::display], milliseconds(5));
+  for (const Part part : {Part::publish, Part::pickup, Part::draw, Part::barrier})
+    EXPECT_GE((*parts)[part], Duration{}) << name_of(part);
 }
 
 }  // namespace

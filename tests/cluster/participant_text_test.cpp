@@ -14,7 +14,7 @@ using internal::text_of;
 const Participant kTile{.role = Role::tile, .name = "tile-3-0", .host = "node7", .version = "0.1"};
 
 TEST(ParticipantText, ComesBack) {
-  EXPECT_EQ(text_of(kTile), "role=tile name=tile-3-0 host=node7 version=0.1 protocol=1");
+  EXPECT_EQ(text_of(kTile), "role=tile name=tile-3-0 host=node7 version=0.1 protocol=2");
   EXPECT_EQ(participant_from(text_of(kTile)), kTile);
 }
 
@@ -40,10 +40,10 @@ TEST(ParticipantText, OfANameThatCannotBeSaidThrows) {
 
 TEST(VersionComplaint, NamesBothSidesAndTheRemedy) {
   Participant other = kTile;
-  other.protocol = 2;
+  other.protocol = 3;
   EXPECT_EQ(version_complaint({Role::master, "master", "node0", "0.2"}, other),
-            "tile tile-3-0 on node7 (vindu 0.1) speaks protocol 2, but master master on node0 "
-            "(vindu 0.2) speaks protocol 1: they do not hear each other; install the same vindu "
+            "tile tile-3-0 on node7 (vindu 0.1) speaks protocol 3, but master master on node0 "
+            "(vindu 0.2) speaks protocol 2: they do not hear each other; install the same vindu "
             "on both (vindu deploy)");
 }
 

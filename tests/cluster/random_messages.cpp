@@ -23,8 +23,14 @@ std::string text(Random& random, int most) {
   return result;
 }
 
+Duration duration(Random& random) { return Duration(static_cast<long>(random.uniform(0, 1e9))); }
+
 FrameMessage frame(Random& random) {
   FrameMessage frame{.epoch = id(random), .newest = random_state(random)};
+  frame.origin.tick_time = time(random);
+  frame.origin.eye_time = frame.origin.tick_time + duration(random);
+  if (random.uniform(0, 1) < 0.5)
+    frame.origin.capture_time = frame.origin.tick_time - duration(random);
   frame.released = frame.newest.number - 1;
   if (random.uniform(0, 1) < 0.5) frame.present_time = time(random);
   frame.scene_revision = id(random);
@@ -34,16 +40,18 @@ FrameMessage frame(Random& random) {
 }
 
 ReadyMessage ready(Random& random) {
-  return {.tile = text(random, 62),
-          .incarnation = id(random),
-          .epoch = id(random),
-          .number = id(random),
-          .presented = id(random),
-          .presented_time = time(random),
-          .draw_time = Duration(static_cast<long>(random.uniform(0, 1e9))),
-          .frame_sent_time = time(random),
-          .frame_received_time = time(random),
-          .sent_time = time(random)};
+  return {
+      .tile = text(random, 62),
+      .incarnation = id(random),
+      .epoch = id(random),
+      .number = id(random),
+      .presented = id(random),
+      .presented_time = time(random),
+      .presented_parts = {duration(random), duration(random), duration(random), duration(random)},
+      .draw_time = duration(random),
+      .frame_sent_time = time(random),
+      .frame_received_time = time(random),
+      .sent_time = time(random)};
 }
 
 StatusMessage status(Random& random) {
@@ -60,7 +68,33 @@ StatusMessage status(Random& random) {
           .refresh_phase_s = random.uniform(0, 1),
           .renderer = text(random, 100),
           .version = text(random, 30),
-          .error = text(random, 500)};
+          .error = text(random, 500),
+          .draw = {.draw_ms = random.uniform(0, 100),
+                   .gpu_ms = random.uniform(0, 100),
+                   .triangles = id(random),
+                   .culled_share = random.uniform(0, 1),
+                   .memory_bytes = random.uniform(0, 1e12)}};
+}
+
+Quantiles quantiles(Random& random) {
+  return {random.normal(1), random.normal(1), random.normal(1)};
+}
+
+ReportMessage report(Random& random) {
+  ReportMessage report{.tile = text(random, 62),
+                       .epoch = id(random),
+                       .locked = static_cast<std::uint32_t>(random.uniform(0, 64)),
+                       .evictions = static_cast<std::uint32_t>(random.uniform(0, 1e6)),
+                       .restarts = static_cast<std::uint32_t>(random.uniform(0, 1e6)),
+                       .level = choice(random, TrackingLevel::lost),
+                       .event = text(random, 250)};
+  report.frames = {.frames = id(random),
+                   .frames_per_s = random.uniform(0, 100),
+                   .tracked = random.uniform(0, 1) < 0.5,
+                   .motion_to_photon_ms = quantiles(random),
+                   .skew_ms = quantiles(random)};
+  for (double& mean_ms : report.frames.mean_ms) mean_ms = random.normal(10);
+  return report;
 }
 
 PoseMessage pose(Random& random) {
@@ -104,7 +138,7 @@ EventMessage event(Random& random) {
 CommandMessage command(Random& random) {
   return {.sender = text(random, 100),
           .request = id(random),
-          .verb = choice(random, Verb::stop),
+          .verb = choice(random, Verb::overlay),
           .tile = text(random, 60),
           .argument = text(random, 1000)};
 }
@@ -151,6 +185,8 @@ Message random_message(Random& random, Topic topic) {
     case Topic::log:
       return LogMessage{text(random, 60), time(random), choice(random, LogLevel::verbose),
                         text(random, 500)};
+    case Topic::report:
+      return report(random);
     case Topic::presence:
       break;
   }

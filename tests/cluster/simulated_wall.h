@@ -155,7 +155,7 @@ class SimulatedTile {
         const double refreshes = seconds(now.time_since_epoch()) / period_s - spec.refresh_phase;
         surface_free_ =
             Time(from_seconds((std::floor(refreshes) + 1 + spec.refresh_phase) * period_s));
-        tile_->showed(now);
+        tile_->showed(now, now);
         shown.push_back({now, drawn_.number, drawn_.eye_in_wall.x(), scene_});
         return step();
       }
@@ -223,6 +223,7 @@ class SimulatedWall {
   World world;
   std::vector<std::unique_ptr<SimulatedTile>> tiles;
   std::map<std::uint64_t, double> eye_x_m;  // what the master said of each frame
+  std::map<std::uint64_t, Time> ticks;      // when it began each
   std::vector<MemberEvent> events;
   std::vector<FrameSkew> skews;
 
@@ -270,7 +271,10 @@ class SimulatedWall {
     if (master_->open() && now >= start_ + from_seconds(static_cast<double>(tick_due_) / 60)) {
       ++begun_;
       eye_x_m[begun_] = world.uniform(-1, 1);
-      master_->begin({.number = 0, .eye_in_wall = Vec3(eye_x_m[begun_], 0, 2)}, now);
+      ticks[begun_] = now;
+      master_->begin(
+          {.number = 0, .eye_in_wall = Vec3(eye_x_m[begun_], 0, 2)}, now,
+          {.capture_time = now - std::chrono::milliseconds(7), .tick_time = now, .eye_time = now});
       tick_due_ = static_cast<std::int64_t>(seconds(now - start_) * 60 + 1e-6) + 1;
     }
     for (MemberEvent& event : master_->take_events()) events.push_back(event);

@@ -48,8 +48,8 @@ TEST_F(Views, OfAGoodWallAreOneLineOfTiles) {
   EXPECT_TRUE(view_.now().good());
   EXPECT_EQ(table_of(view_.now()),
             "master on head, no frame yet\n"
-            "TILES             STATE  FRAME  FPS  LATE  RESTARTS  LAST ERROR\n"
-            "tile-[0-6]-[0-3]  ready  100    60   0     0\n");
+            "TILES             STATE  FRAME  FPS  GPU ms  SKEW ms  LATE  RESTARTS  LAST ERROR\n"
+            "tile-[0-6]-[0-3]  ready  100    60   -       -        0     0\n");
 }
 
 TEST_F(Views, NameWhatIsNotReadyFirst) {
@@ -78,8 +78,8 @@ TEST_F(Views, SayWhichTilesWereNeverHeardOf) {
   const WallView fresh({"tile-0-0", "tile-0-1"}, kSelf);
   EXPECT_EQ(table_of(fresh.now()),
             "no master\n"
-            "TILES         STATE    FRAME  FPS  LATE  RESTARTS  LAST ERROR\n"
-            "tile-0-[0-1]  missing  -      -    -     -\n");
+            "TILES         STATE    FRAME  FPS  GPU ms  SKEW ms  LATE  RESTARTS  LAST ERROR\n"
+            "tile-0-[0-1]  missing  -      -    -       -        -     -\n");
 }
 
 TEST_F(Views, CountFramesOfOneMasterAlone) {
@@ -105,6 +105,51 @@ TEST_F(Views, AMasterThatLeavesIsMissedUnlessAnotherCame) {
   view_.hear(Presence{PresenceChange::joined, next});
   view_.hear(Presence{PresenceChange::left, kMaster});
   EXPECT_EQ(view_.now().master, next);
+}
+
+ReportMessage report_of(const std::string& tile, double skew_ms, std::uint32_t restarts = 0) {
+  ReportMessage report{.tile = tile, .epoch = 7, .restarts = restarts};
+  report.frames = {.frames = 300,
+                   .frames_per_s = 60,
+                   .mean_ms = {8, 0.5, 0.25, 0, 6, 3, 0.25, 16},
+                   .tracked = true,
+                   .motion_to_photon_ms = {34, 40.25, 51},
+                   .skew_ms = {skew_ms / 2, skew_ms, 2 * skew_ms}};
+  report.level = TrackingLevel::six_dof;
+  return report;
+}
+
+TEST_F(Views, ShowSkewAndTheSumOfMotionToPhotonAsTheMasterSays) {
+  const WallView& view = view_;
+  view_.hear(FrameMessage{.epoch = 7, .newest = {.number = 100}, .active_tiles = 28}, Time{});
+  view_.hear(report_of("", 0.4));
+  EXPECT_THAT(
+      table_of(view.now()),
+      HasSubstr("28 of 28 tiles in the frame lock, eye six-dof\n"
+                "                        p50     p99     max\n"
+                "  skew of swaps        0.20    0.40    0.80 ms\n"
+                "  motion to photon     34.0    40.2    51.0 ms\n"
+                "  mean of parts: capture age 8.0, solve 0.5, publish 0.2, pick-up 0.0, draw 6.0, "
+                "barrier 3.0, swap 0.2, display 16.0 ms\n"));
+}
+
+TEST_F(Views, FoldTilesWithTheLeastAndTheLargestOfTheirFigures) {
+  view_.hear(report_of("tile-0-0", 0.1));
+  view_.hear(report_of("tile-3-2", 0.5, 2));
+  view_.hear(StatusMessage{.tile = "tile-5-1",
+                           .incarnation = 1,
+                           .state = TileState::ready,
+                           .presented = 100,
+                           .frames_per_s = 60,
+                           .draw = {.gpu_ms = 4.25}});
+  EXPECT_THAT(table_of(view_.now()),
+              ContainsRegex("tile-\\[0-6\\]-\\[0-3\\] +ready +100 +60 +4.2 +0.10-0.50 +0 +0-2\n"));
+}
+
+TEST_F(Views, BelieveNoMasterThatWasReplaced) {
+  view_.hear(FrameMessage{.epoch = 8, .newest = {.number = 1}}, Time{});
+  view_.hear(report_of("", 0.4));
+  EXPECT_FALSE(view_.now().report);
 }
 
 TEST_F(Views, TellOfOtherVersions) {

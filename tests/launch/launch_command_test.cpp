@@ -66,6 +66,8 @@ TEST_F(LaunchCommand, LightsAWallThatConsolesSpeakTo) {
               AllOf(HasSubstr("\"good\": true"), HasSubstr("\"tile\": \"tile-1-0\"")));
   EXPECT_EQ(ask({"pattern", "counter"}).exit_code, 0);
   EXPECT_THAT(ask({"pattern", "no-such"}).err, HasSubstr("no-such"));
+  EXPECT_EQ(ask({"overlay", "on"}).exit_code, 0);
+  EXPECT_EQ(ask({"overlay", "perhaps"}).exit_code, 2);
   EXPECT_THAT(ask({"show", path("no.glb")}).err, HasSubstr("no.glb"));
   EXPECT_THAT(ask({"launch"}).err, HasSubstr("a wall of this name runs on this machine"));
   EXPECT_EQ(ask({"stop"}).exit_code, 0);

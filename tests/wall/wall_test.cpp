@@ -35,6 +35,17 @@ look_at_m = [0, 1.65, 2.0]
 focal_px = 1335
 )";
 
+/// Between commas; empty ones too.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char letter : line)
+    if (letter == ',')
+      cells.emplace_back();
+    else
+      cells.back() += letter;
+  return cells;
+}
+
 class WallTest : public AppTest {
  protected:
   WallTest()
@@ -179,6 +190,51 @@ TEST_F(WallTest, FollowsTheTrackerElsewhereAndTheNextOneWhenItDies) {
   std::set<std::string> eyes;
   for (const Swap& swap : swaps_in(path("tile-0-0.csv"))) eyes.insert(swap.eye_x_m);
   EXPECT_GT(eyes.size(), 30u);  // it moved
+}
+
+TEST_F(WallTest, WritesALineForEachFrameWhosePartsAddUpThoughItIsKilled) {
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  Child master = start_master({"--csv", path("frames.csv")});
+  while (lines_of(bytes_of(path("frames.csv"))).size() < 120)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  master.send(SIGKILL);
+  master.end();
+
+  std::vector<std::string> lines = lines_of(bytes_of(path("frames.csv")));
+  const std::vector<std::string> names = cells_of(lines.front());
+  ASSERT_EQ(names[12], "display_ms");
+  std::uint64_t before = 0;
+  int shown = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> cells = cells_of(lines[i]);
+    ASSERT_EQ(cells.size(), names.size()) << lines[i];
+    ASSERT_EQ(std::stoull(cells[0]), before + 1);
+    before = std::stoull(cells[0]);
+    if (cells[2] == "0") continue;
+    ++shown;
+    double sum_ms = 0;
+    for (std::size_t part = 5; part <= 12; ++part)
+      sum_ms += cells[part].empty() ? 0 : std::stod(cells[part]);
+    ASSERT_NEAR(sum_ms, std::stod(cells[13]), 1e-3) << lines[i];
+    EXPECT_EQ(cells[5], "");  // no capture on a path
+  }
+  EXPECT_GT(shown, 50);
+}
+
+TEST_F(WallTest, ShowsItsFiguresWithoutHidingTheFramesNumber) {
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  Child master = start_master({"--overlay"});
+  for (const std::string& file : files()) await_swaps(file, 90);
+  expect_right(files());
+  const ProcessResult status = vindu({"status", "--json", "--wall", wall_file_});
+  EXPECT_THAT(status.out, HasSubstr("\"skew_ms\": {\"p50\": "));
+  EXPECT_THAT(status.out, ::testing::Not(HasSubstr("\"report\": null")));
+  EXPECT_THAT(status.out, ::testing::Not(HasSubstr("\"triangles\": 0,")));
+  EXPECT_EQ(vindu({"overlay", "off", "--wall", wall_file_}).exit_code, 0);
+  for (const std::string& file : files()) await_swaps(file, 20);
+  expect_right(files());
 }
 
 TEST_F(WallTest, TellsSystemdThatATileDrawsAndThatItStillDoes) {
