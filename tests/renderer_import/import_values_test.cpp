@@ -136,7 +136,7 @@ TEST(ImportGltf, FactorsAreTakenAsTheyAre) {
   EXPECT_TRUE(material.emissive.isApprox(Eigen::Vector3f(0.5f, 0.25f, 0.125f)));
   EXPECT_TRUE(material.double_sided);
   EXPECT_EQ(material.alpha_mode, AlphaMode::opaque);  // whatever the factor's alpha
-  EXPECT_EQ(material.base_colour_texture, -1);
+  EXPECT_EQ(material.texture(TextureRole::base_colour).image, -1);
   EXPECT_FALSE(material.unlit);
 }
 
@@ -179,7 +179,7 @@ TEST(ImportGltf, EmbeddedTextureIsDecoded) {
                   .more = texture_member()});
 
   ASSERT_EQ(scene.textures.size(), 1u);
-  EXPECT_EQ(scene.materials.at(0).base_colour_texture, 0);
+  EXPECT_EQ(scene.materials.at(0).texture(TextureRole::base_colour).image, 0);
   EXPECT_EQ(scene.textures[0].width_px, 2);
   EXPECT_EQ(scene.textures[0].at(1, 0), (Rgba8{0, 255, 0, 128}));
 }
@@ -215,7 +215,7 @@ TEST(ImportGltf, APictureThatGlowsOnBlackIsUnlit) {
   const Material& material = result.scene.materials.at(0);
   EXPECT_TRUE(material.unlit);
   EXPECT_EQ(material.base_colour, Eigen::Vector4f(1, 0.5f, 1, 1));
-  EXPECT_EQ(material.base_colour_texture, 0);
+  EXPECT_EQ(material.texture(TextureRole::base_colour).image, 0);
   EXPECT_TRUE(material.emissive.isZero());
   EXPECT_THAT(result.warnings, IsEmpty());
 }
@@ -280,7 +280,7 @@ TEST(ImportObj, TextureIsFoundInAnotherCaseAndFolder) {
 
   EXPECT_THAT(result.warnings, IsEmpty());
   ASSERT_EQ(result.scene.textures.size(), 1u);
-  EXPECT_EQ(result.scene.materials.at(0).base_colour_texture, 0);
+  EXPECT_EQ(result.scene.materials.at(0).texture(TextureRole::base_colour).image, 0);
 }
 
 TEST(ImportObj, DiffuseColourTintsTheTextureUnlessItIsBlack) {
@@ -297,7 +297,7 @@ TEST(ImportObj, MissingTextureIsAWarningAndTheColourRemains) {
   const ImportResult result = obj_with_material("Kd 1 0 0\nmap_Kd missing.png\n");
 
   EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("missing.png")));
-  EXPECT_EQ(result.scene.materials.at(0).base_colour_texture, -1);
+  EXPECT_EQ(result.scene.materials.at(0).texture(TextureRole::base_colour).image, -1);
   EXPECT_EQ(result.scene.materials.at(0).base_colour, Eigen::Vector4f(1, 0, 0, 1));
 }
 
