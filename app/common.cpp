@@ -124,7 +124,8 @@ void make_folder(const std::string& folder) {
 }
 
 Look live_look() {
-  return draws_in_software() ? Look{.samples = 1, .shadows = Shadows::crisp} : Look{};
+  return draws_in_software() ? Look{.samples = 1, .shadows = Shadows::crisp, .anisotropy = 1}
+                             : Look{};
 }
 
 TileCorners content_corners(const Tile& tile, const Window& window) {

@@ -96,7 +96,7 @@ Shown load_shown(const std::string& model, const ViewOptions& options, const Sit
   LoadedScene loaded = load_scene(model, options.place, place_before);
   const bool own_place = options.place == Placement::as_is;
   if (!own_place) loaded.navigation.wall_from_scene.translation += content.centre_in_wall();
-  return {GpuScene(loaded.scene, Style::lit), loaded.navigation};
+  return {GpuScene(loaded.scene, live_look()), loaded.navigation};
 }
 
 class Viewer {
@@ -105,7 +105,8 @@ class Viewer {
       : options_(options),
         window_(window),
         site_(screen_site(options, window.screen())),
-        renderer_(Style::lit),
+        renderer_(live_look()),
+        shadow_(live_look()),
         shown_(load_shown(options.model, options, site_,
                           content_corners(site_.wall.tiles.front(), window))) {}
 
@@ -126,8 +127,9 @@ class Viewer {
     shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
                       state.animation_time_s);
     const GpuScene* scenes[] = {&shown_.scene};
+    shadow_.update(scenes, shadow_region(site_.wall));
     canvas_->begin();
-    if (view) renderer_.draw(*view, scenes);
+    if (view) renderer_.draw(*view, scenes, {}, &shadow_);
     canvas_->resolve(*picture_);
     picture_->make_mipmaps();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -155,6 +157,7 @@ class Viewer {
   Window& window_;
   Site site_;
   SceneRenderer renderer_;
+  ShadowMap shadow_;
   Shown shown_;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<Picture> picture_;
@@ -180,15 +183,17 @@ int view_as_picture(const ViewOptions& options) {
   const auto surface = make_headless_surface({.device = options.device});
   Shown shown = load_shown(options.model, options, site, site.wall.tiles.front().corners);
   shown.scene.pose(matrix_of(shown.navigation.wall_from_scene, shown.navigation.scale), 0);
-  const SceneRenderer renderer(Style::lit);
+  const SceneRenderer renderer(Look{});
+  ShadowMap shadow(Look{});
   Canvas canvas(kPicture, Look{});
   Picture picture(kPicture, Style::lit);
   const Vec3 eye = options.eye.value_or(site.viewer.default_eye_in_wall);
   const auto view = tile_view(site.wall.tiles.front().corners, eye);
   if (!view) throw Error({"is at or behind the screen's plane", "--eye", "give an eye with z > 0"});
   const GpuScene* scenes[] = {&shown.scene};
+  shadow.update(scenes, shadow_region(site.wall));
   canvas.begin();
-  renderer.draw(*view, scenes);
+  renderer.draw(*view, scenes, {}, &shadow);
   canvas.resolve(picture);
   make_folder(options.out);
   write_png(picture.read(), options.out + "/view.png");

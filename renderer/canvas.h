@@ -24,6 +24,7 @@ struct Look {
   Style style = Style::lit;
   int samples = 4;                  ///< a pixel, where light is drawn; 1 is much cheaper on a CPU
   Shadows shadows = Shadows::soft;  ///< where light is drawn
+  float anisotropy = 8;             ///< of all textures of models
 };
 
 /// A part of a canvas or picture, its lower left at (x, y), counted from the lower left.

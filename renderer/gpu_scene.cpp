@@ -121,14 +121,14 @@ void check_memory(const std::string& name) {
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, Style style)
-    : triangle_count_(scene.triangle_count()), textures_(scene, style) {
+GpuScene::GpuScene(const Scene& scene, const Look& look)
+    : triangle_count_(scene.triangle_count()), textures_(scene, look) {
   skeleton_.nodes = scene.nodes;
   skeleton_.animations = scene.animations;
   list_draws(scene);
-  upload_geometry(scene, style);
+  upload_geometry(scene, look.style);
   upload_details(scene);
-  upload_materials(scene, style);
+  upload_materials(scene, look.style);
   nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * kBlockBytes, GL_DYNAMIC_STORAGE_BIT);
   check_memory(scene.name);
   pose(Mat4::Identity(), 0);

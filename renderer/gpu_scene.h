@@ -16,7 +16,8 @@ class GpuScene {
  public:
   /// Keeps `scene`'s nodes and animations, not its geometry. Throws Error when the GPU's memory
   /// does not suffice.
-  GpuScene(const Scene& scene, Style style);
+  GpuScene(const Scene& scene, const Look& look);
+  GpuScene(const Scene& scene, Style style) : GpuScene(scene, Look{style}) {}
 
   /// Once a frame, before any view is drawn: where the scene stands, and its animation's time.
   void pose(const Mat4& world_from_scene, double animation_time_s);

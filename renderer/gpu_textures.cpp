@@ -6,9 +6,6 @@
 namespace vindu {
 namespace {
 
-/// Of all textures on the wall.
-constexpr float kAnisotropy = 8;
-
 bool holds_colour(TextureRole role) {
   return role == TextureRole::base_colour || role == TextureRole::emissive;
 }
@@ -27,12 +24,13 @@ GLint gl_wrap(Wrap wrap) {
 
 }  // namespace
 
-GpuTextures::GpuTextures(const Scene& scene, Style style) : style_(style) {
+GpuTextures::GpuTextures(const Scene& scene, const Look& look) : look_(look) {
   for (const Material& material : scene.materials)
     for (std::size_t i = 0; i < kTextureRoles; ++i) {
       const auto role = static_cast<TextureRole>(i);
       const TextureUse& use = material.textures[i];
-      if (use.image < 0 || (style == Style::unlit && role != TextureRole::base_colour)) continue;
+      if (use.image < 0 || (look.style == Style::unlit && role != TextureRole::base_colour))
+        continue;
       upload(scene.textures[static_cast<std::size_t>(use.image)], use.image, holds_colour(role));
       make_sampler(use.wrap_u, use.wrap_v);
     }
@@ -44,7 +42,7 @@ void GpuTextures::upload(const Image& image, int index, bool srgb) {
   gl::Texture texture = gl::make_texture_2d();
   const auto longest = static_cast<unsigned>(std::max(image.width_px, image.height_px));
   glTextureStorage2D(texture.name(), std::bit_width(longest),
-                     srgb && style_ == Style::lit ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width_px,
+                     srgb && look_.style == Style::lit ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width_px,
                      image.height_px);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(texture.name(), 0, 0, 0, image.width_px, image.height_px, GL_RGBA,
@@ -62,7 +60,8 @@ void GpuTextures::make_sampler(Wrap u, Wrap v) {
   glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, gl_wrap(v));
   glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   // For measuring nothing may blur: llvmpipe's anisotropic filter mixes neighbours at any level.
-  if (style_ == Style::lit) glSamplerParameterf(sampler, GL_TEXTURE_MAX_ANISOTROPY, kAnisotropy);
+  if (look_.style == Style::lit)
+    glSamplerParameterf(sampler, GL_TEXTURE_MAX_ANISOTROPY, look_.anisotropy);
 }
 
 void GpuTextures::bind(const TextureUse& use, TextureRole role) const {

@@ -16,7 +16,7 @@ constexpr GLuint kShadowUnit = kTextureRoles;
 class GpuTextures {
  public:
   /// Uploads what the scene's materials use, with mipmaps.
-  GpuTextures(const Scene& scene, Style style);
+  GpuTextures(const Scene& scene, const Look& look);
 
   /// To the unit of its role.
   void bind(const TextureUse& use, TextureRole role) const;
@@ -25,7 +25,7 @@ class GpuTextures {
   void upload(const Image& image, int index, bool srgb);
   void make_sampler(Wrap u, Wrap v);
 
-  Style style_;
+  Look look_;
   std::map<std::pair<int, bool>, gl::Texture> textures_;  // by image, and whether it is sRGB
   std::map<std::pair<Wrap, Wrap>, gl::Sampler> samplers_;
 };

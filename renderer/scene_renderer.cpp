@@ -1,5 +1,7 @@
 #include "renderer/scene_renderer.h"
 
+#include <optional>
+
 #include "renderer/gl/convert.h"
 
 namespace vindu {
@@ -19,7 +21,6 @@ SceneRenderer::SceneRenderer(const Look& look)
 DrawCount SceneRenderer::draw(const View& view, std::span<const GpuScene* const> scenes,
                               std::span<const Panel> panels, const ShadowMap* shadow) const {
   DrawCount count;
-  if (shadow && !shadow->in_use()) shadow = nullptr;
   if (shadow) glBindTextureUnit(kShadowUnit, shadow->texture());
   glEnable(GL_DEPTH_TEST);
   for (const GpuScene* scene : scenes) draw_scene({view, shadow, false}, *scene, count);
@@ -42,7 +43,16 @@ void SceneRenderer::draw_panels(const View& view, std::span<const Panel> panels)
   glDisable(GL_CULL_FACE);
 }
 
-const gl::Program& SceneRenderer::prepared_program(const Pass& pass, SurfaceKind kind) const {
+SurfaceKind SceneRenderer::kind_drawn(const GpuScene::Draw& draw, const ShadowMap* shadow) const {
+  if (style() == Style::unlit) return draw.kind & kMeasured;
+  return is_lit(draw) && shadow && shadow->in_use() ? draw.kind | kShadowed : draw.kind;
+}
+
+void SceneRenderer::prepare(const GpuScene& scene, const ShadowMap* shadow) const {
+  for (const GpuScene::Draw& draw : scene.draws()) scene_programs_.of(kind_drawn(draw, shadow));
+}
+
+void SceneRenderer::use_program(const Pass& pass, SurfaceKind kind) const {
   const gl::Program& program = scene_programs_.of(kind);
   program.set("clip_from_world", gl::mat4_from(pass.view.clip_from_world));
   program.set("eye_in_world", gl::vec3_from(pass.view.eye_in_world));
@@ -52,27 +62,23 @@ const gl::Program& SceneRenderer::prepared_program(const Pass& pass, SurfaceKind
     program.set("shadow_texel_m", static_cast<float>(pass.shadow->fit().texel_m));
   }
   program.use();
-  return program;
 }
 
 void SceneRenderer::draw_scene(const Pass& pass, const GpuScene& scene, DrawCount& count) const {
   scene.bind();
+  std::optional<SurfaceKind> in_use;
   for (const Batch& batch : batches_in_view(pass.view, scene, pass.blended, count)) {
     const GpuScene::Draw& draw = *batch.first;
-    const SurfaceKind kind = style() == Style::unlit       ? draw.kind & kMeasured
-                             : is_lit(draw) && pass.shadow ? draw.kind | kShadowed
-                                                           : draw.kind;
-    prepared_program(pass, kind);
+    const SurfaceKind kind = kind_drawn(draw, pass.shadow);
+    if (in_use != kind) use_program(pass, kind);
+    in_use = kind;
     scene.bind(draw, kind);
     glFrontFace(scene.mirrored(draw.node) ? GL_CW : GL_CCW);
-    glEnable(GL_CULL_FACE);
-    if (draw.double_sided && pass.blended) {
-      // What is blended shows its far side through its near one.
+    (draw.double_sided && !pass.blended ? glDisable : glEnable)(GL_CULL_FACE);
+    if (draw.double_sided && pass.blended) {  // the far side shines through the near one
       glCullFace(GL_FRONT);
       batch.draw();
       glCullFace(GL_BACK);
-    } else if (draw.double_sided) {
-      glDisable(GL_CULL_FACE);
     }
     batch.draw();
   }

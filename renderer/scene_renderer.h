@@ -24,7 +24,11 @@ class SceneRenderer {
   explicit SceneRenderer(const Look& look);
   explicit SceneRenderer(Style style) : SceneRenderer(Look{style}) {}
 
+  const Look& look() const { return look_; }
   Style style() const { return look_.style; }
+
+  /// Links the programs that the scene needs, so that drawing does not wait for them.
+  void prepare(const GpuScene& scene, const ShadowMap* shadow) const;
 
   /// Into the canvas that was begun last. The scenes must be posed. Blended surfaces are sorted by
   /// distance from the eye. `shadow`: of these scenes, as they stand.
@@ -45,7 +49,8 @@ class SceneRenderer {
     bool blended;
   };
   void draw_scene(const Pass& pass, const GpuScene& scene, DrawCount& count) const;
-  const gl::Program& prepared_program(const Pass& pass, SurfaceKind kind) const;
+  SurfaceKind kind_drawn(const GpuScene::Draw& draw, const ShadowMap* shadow) const;
+  void use_program(const Pass& pass, SurfaceKind kind) const;
   void draw_panel(const View& view, const Panel& panel) const;
   void draw_background(const View& view) const;
 

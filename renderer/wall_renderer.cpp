@@ -70,11 +70,12 @@ void WallRenderer::show(const Scene& scene) {
 }
 
 void WallRenderer::prepare(const Scene& scene) {
-  prepared_ = std::make_unique<GpuScene>(scene, renderer_.style());
+  prepared_ = std::make_unique<GpuScene>(scene, renderer_.look());
   prepared_->pose(Mat4::Identity(), 0);
   const auto view = tile_view(wall_.tiles.front().corners, Vec3(0, 0, 2));
   const GpuScene* const drawn = prepared_.get();
   if (shadow_) shadow_->update(std::span(&drawn, 1), shadow_region(wall_));
+  renderer_.prepare(*prepared_, shadow_.get());
   canvas_->begin();
   canvas_->draw_into({0, 0, cell_});
   if (view) renderer_.draw(*view, std::span(&drawn, 1), {}, shadow_.get());

@@ -3,11 +3,11 @@
 // shadows. It is the same for all surfaces of all tiles. Formulas take the place of an environment
 // map: reflections stay sharp, nothing is to be loaded, and a CPU that draws fetches no texels.
 // Directions in world (+y up, +z towards the viewer); radiance linear, 1 is white.
-const vec3 kKeyLight = vec3(0.90, 0.84, 0.75);
+const vec3 kKeyLight = vec3(0.86, 0.80, 0.71);
 
-const vec3 kZenith = vec3(0.115, 0.150, 0.220);
-const vec3 kHorizon = vec3(0.230, 0.235, 0.245);
-const vec3 kGround = vec3(0.075, 0.069, 0.063);
+const vec3 kZenith = vec3(0.110, 0.148, 0.220);
+const vec3 kHorizon = vec3(0.250, 0.255, 0.265);
+const vec3 kGround = vec3(0.105, 0.098, 0.090);
 
 // A shining rectangle, seen under the tangents `half_size` from its middle; `spread` is its solid
 // angle over pi.

@@ -45,18 +45,20 @@ vec4 base_colour() {
 #ifdef MASKED
 // Leaves out what the mask cuts away, sample by sample: alpha is steepened to rise from 0 to 1
 // within a pixel around the cutoff (B. Golus, "Anti-aliased Alpha Test: The Esoteric Alpha To
-// Coverage", 2017). The samples are chosen here, since what alpha to coverage does differs between
-// GPUs. Minified masks thin out; that is made up for.
+// Coverage", 2017); the smaller the mask is seen, the less, until alpha is the share that it
+// covers. The samples are chosen here, since what alpha to coverage does differs between GPUs.
 void cut_out(float alpha) {
   float cutoff = material.roughness_cutoff_normal_occlusion.y;
 #ifdef MEASURE
   if (alpha < cutoff) discard;
 #else
+  float lod = 0.0;
 #ifdef BASE_COLOUR_TEXTURE
-  alpha *= 1.0 + 0.25 * max(0.0, textureQueryLod(base_colour_texture, uv_of(0)).x);
+  lod = max(0.0, textureQueryLod(base_colour_texture, uv_of(0)).x);
 #endif
-  float steep = clamp((alpha - cutoff) / max(fwidth(alpha), 1e-4) + 0.5, 0.0, 1.0);
-  int covered = int(steep * float(gl_NumSamples) + 0.5);
+  if (gl_NumSamples == 1) alpha *= 1.0 + 0.25 * lod;  // or it would thin out to nothing
+  float width = max(fwidth(alpha), clamp(0.3 * lod - 0.3, 1e-4, 1.0));
+  int covered = int(clamp((alpha - cutoff) / width + 0.5, 0.0, 1.0) * float(gl_NumSamples) + 0.5);
   if (covered == 0) discard;
   gl_SampleMask[0] = (1 << covered) - 1;
 #endif

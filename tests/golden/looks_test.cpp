@@ -3,7 +3,10 @@
 // side).
 #include <gmock/gmock.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "core/site.h"
 #include "renderer/import.h"
@@ -82,7 +85,8 @@ std::string complaint_about_model(const std::vector<std::pair<std::string, std::
 std::string obj_lines(const Shape& shape, const Eigen::Vector3f& place, float size, int& first) {
   std::ostringstream text;
   for (const Vertex& vertex : shape.vertices) {
-    const Eigen::Vector3f p = place + size * vertex.position_in_node;
+    const Eigen::Vector3f p =
+        (1e4f * (place + size * vertex.position_in_node)).array().round() / 1e4f;  // a closed seam
     text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << "\nvt " << vertex.uv.x() << ' '
          << 1 - vertex.uv.y() << '\n';
   }
