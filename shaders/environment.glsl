@@ -1,9 +1,9 @@
 // The light around the scene, a photographer's studio that is made here: a gradient from a dark
-// floor over a pale horizon to a blue zenith, four soft boxes, and the key light, which alone throws
-// shadows. It is the same for all surfaces of all tiles. Formulas take the place of an environment
-// map: reflections stay sharp, nothing is to be loaded, and a CPU that draws fetches no texels.
+// floor over a pale horizon to a blue zenith, four soft boxes, and the key light, which alone
+// throws shadows. It is the same for all surfaces of all tiles. Formulas take the place of an
+// environment map: reflections stay sharp, and nothing is to be loaded.
 // Directions in world (+y up, +z towards the viewer); radiance linear, 1 is white.
-const vec3 kKeyLight = vec3(0.86, 0.80, 0.71);
+const vec3 kKeyLight = vec3(0.80, 0.74, 0.66);
 
 const vec3 kZenith = vec3(0.110, 0.148, 0.220);
 const vec3 kHorizon = vec3(0.250, 0.255, 0.265);
@@ -22,15 +22,15 @@ struct SoftBox {
 // Overhead.
 const SoftBox kCeiling =
     SoftBox(vec3(-0.1881, 0.9407, 0.2822), vec3(0.9806, 0.1961, 0.0000),
-            vec3(-0.0553, 0.2767, -0.9594), vec2(0.62, 0.36), vec3(1.15, 1.15, 1.13), 0.228);
+            vec3(-0.0553, 0.2767, -0.9594), vec2(0.62, 0.36), vec3(1.02, 1.02, 1.00), 0.228);
 // Beside the key light.
 const SoftBox kWindow =
     SoftBox(vec3(-0.7599, 0.3397, 0.5543), vec3(0.5893, -0.0000, 0.8079),
-            vec3(0.2745, 0.9405, -0.2002), vec2(0.28, 0.44), vec3(1.25, 1.17, 1.05), 0.139);
+            vec3(0.2745, 0.9405, -0.2002), vec2(0.28, 0.44), vec3(1.12, 1.05, 0.94), 0.139);
 // Tall, on the right.
 const SoftBox kStrip =
     SoftBox(vec3(0.9086, 0.1148, 0.4017), vec3(0.4044, 0.0000, -0.9146),
-            vec3(-0.1050, 0.9934, -0.0464), vec2(0.14, 0.90), vec3(0.85, 0.94, 1.10), 0.118);
+            vec3(-0.1050, 0.9934, -0.0464), vec2(0.14, 0.90), vec3(0.80, 0.88, 1.02), 0.118);
 // Behind the scene, cool.
 const SoftBox kRim =
     SoftBox(vec3(0.5200, 0.3971, -0.7563), vec3(-0.8240, 0.0000, -0.5665),

@@ -6,8 +6,8 @@ uniform mat4 map_from_world;
 uniform float shadow_texel_m;
 
 float key_visibility(vec3 position_in_world, vec3 normal, vec3 to_light) {
-  // Off the surface, the farther the flatter the light falls, or it would shadow itself (D. Holbert,
-  // "Saying Goodbye to Shadow Acne", 2011).
+  // Off the surface, the farther the flatter the light falls, or it would shadow itself
+  // (D. Holbert, "Saying Goodbye to Shadow Acne", 2011).
   float cosine = clamp(dot(normal, to_light), 0.0, 1.0);
 #ifdef SOFT_SHADOWS
   const float reach_px = 2.5;

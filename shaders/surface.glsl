@@ -11,8 +11,8 @@ struct Surface {
 };
 
 // GGX's alpha, wider where normals turn within a pixel, or highlights would shimmer (Y. Tokuyoshi
-// and A. Kaplanyan, "Improved Geometric Specular Antialiasing", 2019). Never a mirror: the key light
-// has a size.
+// and A. Kaplanyan, "Improved Geometric Specular Antialiasing", 2019). Never a mirror: the key
+// light has a size.
 float ggx_alpha(Surface s) {
   vec3 across = dFdx(s.normal), along = dFdy(s.normal);
   float variance = 0.25 * (dot(across, across) + dot(along, along));
