@@ -135,6 +135,10 @@ BENCHMARK_CAPTURE(lit_plate, base_colour, Look{Style::lit, 1, Shadows::none},
                   {TextureRole::base_colour})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(lit_plate, base_colour_isotropic, (Look{Style::lit, 1, Shadows::none, 1}),
+                  {TextureRole::base_colour})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(lit_plate, five_textures, Look{Style::lit, 1, Shadows::none},
                   {TextureRole::base_colour, TextureRole::metallic_roughness, TextureRole::normal,
                    TextureRole::occlusion, TextureRole::emissive})
