@@ -178,7 +178,7 @@ void convert_legacy_alpha(Conversion& conversion) {
   }
   const int base = conversion.material.texture(TextureRole::base_colour).image;
   const int masked = conversion.textures.index_with_channel(base, 3, mask);
-  if (masked < 0) return;
+  if (masked == base) return;  // there is none
   if (base < 0)
     conversion.use(TextureRole::base_colour, aiTextureType_OPACITY, masked);
   else
@@ -207,10 +207,10 @@ void convert_legacy_pictures(Conversion& conversion) {
                     metalness = conversion.name_of(aiTextureType_METALNESS);
   const int rough = conversion.textures.index_with_channel(-1, 1, roughness);
   const int both = conversion.textures.index_with_channel(rough, 2, metalness);
-  const auto type = rough >= 0 ? aiTextureType_DIFFUSE_ROUGHNESS : aiTextureType_METALNESS;
   if (rough >= 0) material.roughness = 1;
-  if (both >= 0) material.metallic = 1;
-  conversion.use(TextureRole::metallic_roughness, type, both >= 0 ? both : rough);
+  if (both != rough) material.metallic = 1;
+  conversion.use(TextureRole::metallic_roughness,
+                 rough >= 0 ? aiTextureType_DIFFUSE_ROUGHNESS : aiTextureType_METALNESS, both);
   const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
   const bool glows = emissive && !emissive->head<3>().isZero();
   if (glows)
