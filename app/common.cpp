@@ -123,7 +123,10 @@ void make_folder(const std::string& folder) {
     throw Error({"cannot be made: " + error.message(), folder, "choose another --out"});
 }
 
-Look live_look() { return {.samples = draws_in_software() ? 1 : 4}; }
+Look live_look() {
+  return draws_in_software() ? Look{.samples = 1, .shadows = Shadows::crisp, .anisotropy = 1}
+                             : Look{};
+}
 
 TileCorners content_corners(const Tile& tile, const Window& window) {
   if (tile.mount != TileMount{}) return tile.corners;

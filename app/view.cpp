@@ -97,7 +97,7 @@ Shown load_shown(const std::string& model, const ViewOptions& options, const Sit
   LoadedScene loaded = load_scene(model, options.place, place_before);
   const bool own_place = options.place == Placement::as_is;
   if (!own_place) loaded.navigation.wall_from_scene.translation += content.centre_in_wall();
-  return {GpuScene(loaded.scene, Style::lit), loaded.navigation};
+  return {GpuScene(loaded.scene, live_look()), loaded.navigation};
 }
 
 class Viewer {
@@ -106,8 +106,9 @@ class Viewer {
       : options_(options),
         window_(window),
         site_(screen_site(options, window.screen())),
-        renderer_(Style::lit),
+        renderer_(live_look()),
         statistics_(window, site_.rate_hz),
+        shadow_(live_look()),
         shown_(load_shown(options.model, options, site_,
                           content_corners(site_.wall.tiles.front(), window))) {}
 
@@ -130,10 +131,11 @@ class Viewer {
     shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
                       state.animation_time_s);
     const GpuScene* scenes[] = {&shown_.scene};
+    shadow_.update(scenes, shadow_region(site_.wall));
     canvas_->begin();
     const Time began = std::chrono::steady_clock::now();
     statistics_.timer().begin();
-    const DrawCount count = view ? renderer_.draw(*view, scenes) : DrawCount{};
+    const DrawCount count = view ? renderer_.draw(*view, scenes, {}, &shadow_) : DrawCount{};
     canvas_->resolve(*picture_);
     statistics_.timer().end();
     picture_->make_mipmaps();
@@ -165,6 +167,7 @@ class Viewer {
   Site site_;
   SceneRenderer renderer_;
   WindowStatistics statistics_;
+  ShadowMap shadow_;
   Shown shown_;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<Picture> picture_;
@@ -190,15 +193,17 @@ int view_as_picture(const ViewOptions& options) {
   const auto surface = make_headless_surface({.device = options.device});
   Shown shown = load_shown(options.model, options, site, site.wall.tiles.front().corners);
   shown.scene.pose(matrix_of(shown.navigation.wall_from_scene, shown.navigation.scale), 0);
-  const SceneRenderer renderer(Style::lit);
+  const SceneRenderer renderer(Look{});
+  ShadowMap shadow(Look{});
   Canvas canvas(kPicture, Look{});
   Picture picture(kPicture, Style::lit);
   const Vec3 eye = options.eye.value_or(site.viewer.default_eye_in_wall);
   const auto view = tile_view(site.wall.tiles.front().corners, eye);
   if (!view) throw Error({"is at or behind the screen's plane", "--eye", "give an eye with z > 0"});
   const GpuScene* scenes[] = {&shown.scene};
+  shadow.update(scenes, shadow_region(site.wall));
   canvas.begin();
-  renderer.draw(*view, scenes);
+  renderer.draw(*view, scenes, {}, &shadow);
   canvas.resolve(picture);
   make_folder(options.out);
   write_png(picture.read(), options.out + "/view.png");

@@ -57,15 +57,16 @@ TopicRights rights_of(Role role) {
   using enum Topic;
   switch (role) {
     case Role::master:
-      return {.writes = {frame, scene, wall, pose, camera, event, answer, log},
+      return {.writes = {frame, scene, wall, pose, camera, event, answer, log, report},
               .reads = {ready, tile_status, pose, event, command, log}};
     case Role::tile:
-      return {.writes = {ready, tile_status, log}, .reads = {frame, scene, wall, pose, camera}};
+      return {.writes = {ready, tile_status, log},
+              .reads = {frame, scene, wall, pose, camera, report}};
     case Role::tracker:
       return {.writes = {pose, event, log}, .reads = {wall, camera}};
     case Role::console:
       return {.writes = {event, command},
-              .reads = {frame, tile_status, scene, wall, pose, camera, event, answer, log}};
+              .reads = {frame, tile_status, scene, wall, pose, camera, event, answer, log, report}};
   }
   return {};
 }

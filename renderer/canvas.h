@@ -13,9 +13,18 @@ enum class Style {
   unlit,  ///< base colours as they are: no light, tone, sRGB or multisampling; for measuring
 };
 
+enum class Shadows {
+  none,
+  crisp,  ///< of 1024 pixels, one bilinear comparison: for a CPU that draws
+  soft,   ///< of 2048 pixels, edges over three of them
+};
+
+/// One for the whole wall: neighbours must agree.
 struct Look {
   Style style = Style::lit;
-  int samples = 4;  ///< a pixel, where light is drawn; 1 is much cheaper on a CPU
+  int samples = 4;                  ///< a pixel, where light is drawn; 1 is much cheaper on a CPU
+  Shadows shadows = Shadows::soft;  ///< where light is drawn
+  float anisotropy = 8;             ///< of all textures of models
 };
 
 /// A part of a canvas or picture, its lower left at (x, y), counted from the lower left.

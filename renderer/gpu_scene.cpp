@@ -2,8 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -23,11 +21,13 @@ constexpr GLintptr kBlockBytes = 256;
 struct GpuMaterial {
   glm::vec4 base_colour;
   glm::vec4 emissive_metallic;
-  glm::vec4 roughness_cutoff;
+  glm::vec4 roughness_cutoff_normal_occlusion;
+  glm::vec4 texture_from_uv[2 * kTextureRoles];
 };
 struct GpuNode {
   glm::mat4 world_from_node;
   glm::mat4 normal_from_node;
+  glm::vec4 handedness;
 };
 static_assert(sizeof(GpuMaterial) <= kBlockBytes && sizeof(GpuNode) <= kBlockBytes);
 
@@ -41,9 +41,18 @@ GpuMaterial gpu_material(const Material& material, ColourCoding coding, Style st
   const float cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
   const Eigen::Vector3f base = light_of(material.base_colour.head<3>(), coding, style);
   const Eigen::Vector3f emissive = light_of(material.emissive, coding, style);
-  return {{base.x(), base.y(), base.z(), material.base_colour.w()},
-          {emissive.x(), emissive.y(), emissive.z(), material.metallic},
-          {material.roughness, cutoff, 0, 0}};
+  GpuMaterial block{
+      {base.x(), base.y(), base.z(), material.base_colour.w()},
+      {emissive.x(), emissive.y(), emissive.z(), material.metallic},
+      {material.roughness, cutoff, material.normal_scale, material.occlusion_strength},
+      {}};
+  for (std::size_t role = 0; role < kTextureRoles; ++role) {
+    const auto& [image, uv_set, rows, wrap_u, wrap_v] = material.textures[role];
+    for (int row = 0; row < 2; ++row)
+      block.texture_from_uv[2 * role + static_cast<std::size_t>(row)] = {
+          rows(row, 0), rows(row, 1), rows(row, 2), static_cast<float>(uv_set)};
+  }
+  return block;
 }
 
 /// As it is uploaded: colours are light, in 16 bits so that the dark ones keep their steps.
@@ -89,20 +98,20 @@ Box3f moved(const Box3f& box, const Eigen::Matrix4f& matrix) {
   return {middle - half, middle + half};
 }
 
-gl::Texture upload_texture(const Image& image, Style style) {
-  gl::Texture texture = gl::make_texture_2d();
-  const auto longest = static_cast<unsigned>(std::max(image.width_px, image.height_px));
-  glTextureStorage2D(texture.name(), std::bit_width(longest),
-                     style == Style::lit ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width_px,
-                     image.height_px);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width_px, image.height_px, GL_RGBA,
-                      GL_UNSIGNED_BYTE, image.pixels.data());
-  glGenerateTextureMipmap(texture.name());
-  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  // For measuring nothing may blur: llvmpipe's anisotropic filter mixes neighbours at any level.
-  if (style == Style::lit) glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, 8.0f);
-  return texture;
+/// What few vertices need.
+struct GpuDetail {
+  Eigen::Vector3f tangent_in_node;
+  float bitangent_sign;
+  Eigen::Vector2f uv_1;
+};
+static_assert(sizeof(GpuDetail) == 24);
+
+void add_attribute(GLuint array, GLuint buffer, GLuint attribute, GLint floats,
+                   std::size_t offset) {
+  glVertexArrayAttribFormat(array, attribute, floats, GL_FLOAT, GL_FALSE,
+                            static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(array, attribute, buffer);
+  glEnableVertexArrayAttrib(array, attribute);
 }
 
 void check_memory(const std::string& name) {
@@ -112,13 +121,14 @@ void check_memory(const std::string& name) {
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, Style style) : triangle_count_(scene.triangle_count()) {
+GpuScene::GpuScene(const Scene& scene, const Look& look)
+    : triangle_count_(scene.triangle_count()), textures_(scene, look) {
   skeleton_.nodes = scene.nodes;
   skeleton_.animations = scene.animations;
   list_draws(scene);
-  upload_geometry(scene, style);
-  upload_materials(scene, style);
-  upload_textures(scene, style);
+  upload_geometry(scene, look.style);
+  upload_details(scene);
+  upload_materials(scene, look.style);
   nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * kBlockBytes, GL_DYNAMIC_STORAGE_BIT);
   check_memory(scene.name);
   pose(Mat4::Identity(), 0);
@@ -130,10 +140,10 @@ void GpuScene::list_draws(const Scene& scene) {
       const Mesh& mesh = scene.meshes[index];
       const Material& material = scene.materials[mesh.material];
       draws_.push_back({static_cast<int>(node), mesh, material.alpha_mode, material.double_sided,
-                        material.base_colour_texture, material.unlit});
+                        kind_of(material)});
     }
   std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
-    return std::pair(a.alpha_mode, a.texture) < std::pair(b.alpha_mode, b.texture);
+    return std::pair(a.alpha_mode, a.mesh.material) < std::pair(b.alpha_mode, b.mesh.material);
   });
 }
 
@@ -145,14 +155,26 @@ void GpuScene::upload_geometry(const Scene& scene, Style style) {
   const GLuint array = vertex_array_.name();
   glVertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(GpuVertex));
   glVertexArrayElementBuffer(array, indices_.name());
-  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, position_in_node));
-  glVertexArrayAttribFormat(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, normal_in_node));
-  glVertexArrayAttribFormat(array, 2, 2, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, uv));
+  add_attribute(array, 0, 0, 3, offsetof(GpuVertex, position_in_node));
+  add_attribute(array, 0, 1, 3, offsetof(GpuVertex, normal_in_node));
+  add_attribute(array, 0, 2, 2, offsetof(GpuVertex, uv));
   glVertexArrayAttribFormat(array, 3, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(GpuVertex, colour));
-  for (GLuint attribute = 0; attribute < 4; ++attribute) {
-    glEnableVertexArrayAttrib(array, attribute);
-    glVertexArrayAttribBinding(array, attribute, 0);
-  }
+  glVertexArrayAttribBinding(array, 3, 0);
+  glEnableVertexArrayAttrib(array, 3);
+}
+
+void GpuScene::upload_details(const Scene& scene) {
+  constexpr SurfaceKind detailed = kSecondUv | textured(TextureRole::normal);
+  if (std::ranges::none_of(draws_, [](const Draw& draw) { return draw.kind & detailed; })) return;
+  std::vector<GpuDetail> details;
+  details.reserve(scene.vertices.size());
+  for (const Vertex& vertex : scene.vertices)
+    details.push_back({vertex.tangent_in_node, vertex.bitangent_sign, vertex.uv_1});
+  details_ = gl::make_buffer(details.data(), details.size() * sizeof(GpuDetail));
+  const GLuint array = vertex_array_.name();
+  glVertexArrayVertexBuffer(array, 1, details_.name(), 0, sizeof(GpuDetail));
+  add_attribute(array, 1, 4, 4, offsetof(GpuDetail, tangent_in_node));
+  add_attribute(array, 1, 5, 2, offsetof(GpuDetail, uv_1));
 }
 
 void GpuScene::upload_materials(const Scene& scene, Style style) {
@@ -160,13 +182,9 @@ void GpuScene::upload_materials(const Scene& scene, Style style) {
   for (std::size_t index = 0; index < scene.materials.size(); ++index) {
     const GpuMaterial material = gpu_material(scene.materials[index], scene.colours, style);
     std::memcpy(&blocks[index * kBlockBytes], &material, sizeof(material));
+    texture_uses_.push_back(scene.materials[index].textures);
   }
   materials_ = gl::make_buffer(blocks.data(), blocks.size());
-}
-
-void GpuScene::upload_textures(const Scene& scene, Style style) {
-  white_ = upload_texture(Image::filled(1, 1, {255, 255, 255, 255}), style);
-  for (const Image& image : scene.textures) textures_.push_back(upload_texture(image, style));
 }
 
 void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s) {
@@ -182,22 +200,30 @@ void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s) {
     // Normals turn with the inverse transpose; a node flattened to nothing keeps any.
     Mat4 normal = Mat4::Identity();
     if (determinant != 0) normal.topLeftCorner<3, 3>() = linear.inverse().transpose();
-    const GpuNode block{gl::mat4_from(world_from_node), gl::mat4_from(normal)};
+    const float sign = determinant < 0 ? -1.0f : 1.0f;
+    const GpuNode block{gl::mat4_from(world_from_node), gl::mat4_from(normal), glm::vec4(sign)};
     std::memcpy(&blocks[node * kBlockBytes], &block, sizeof(block));
   }
+  if (world_from_nodes == world_from_nodes_) return;
+  ++moves_;
+  world_from_nodes_ = std::move(world_from_nodes);
   glNamedBufferSubData(nodes_.name(), 0, static_cast<GLsizeiptr>(blocks.size()), blocks.data());
   bounds_in_world_.clear();
   for (const Draw& draw : draws_)
-    bounds_in_world_.push_back(moved(draw.mesh.bounds_in_node, world_from_nodes[draw.node]));
+    bounds_in_world_.push_back(moved(draw.mesh.bounds_in_node, world_from_nodes_[draw.node]));
 }
 
 void GpuScene::bind() const { glBindVertexArray(vertex_array_.name()); }
 
-void GpuScene::bind(const Draw& draw) const {
+void GpuScene::bind(const Draw& draw, SurfaceKind kind) const {
   glBindBufferRange(GL_UNIFORM_BUFFER, 0, nodes_.name(), draw.node * kBlockBytes, sizeof(GpuNode));
   glBindBufferRange(GL_UNIFORM_BUFFER, 1, materials_.name(), draw.mesh.material * kBlockBytes,
                     sizeof(GpuMaterial));
-  glBindTextureUnit(0, draw.texture < 0 ? white_.name() : textures_[draw.texture].name());
+  const auto& uses = texture_uses_[static_cast<std::size_t>(draw.mesh.material)];
+  for (std::size_t i = 0; i < kTextureRoles; ++i) {
+    const auto role = static_cast<TextureRole>(i);
+    if (kind & textured(role)) textures_.bind(uses[i], role);
+  }
 }
 
 }  // namespace vindu

@@ -2,12 +2,13 @@
 // stands this frame. One copy serves any number of views. Bound to the render thread.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/rigid3.h"
-#include "renderer/canvas.h"
-#include "renderer/scene.h"
+#include "renderer/gpu_textures.h"
+#include "renderer/surface_kind.h"
 
 namespace vindu {
 
@@ -15,7 +16,8 @@ class GpuScene {
  public:
   /// Keeps `scene`'s nodes and animations, not its geometry. Throws Error when the GPU's memory
   /// does not suffice.
-  GpuScene(const Scene& scene, Style style);
+  GpuScene(const Scene& scene, const Look& look);
+  GpuScene(const Scene& scene, Style style) : GpuScene(scene, Look{style}) {}
 
   /// Once a frame, before any view is drawn: where the scene stands, and its animation's time.
   void pose(const Mat4& world_from_scene, double animation_time_s);
@@ -28,8 +30,7 @@ class GpuScene {
     Mesh mesh;
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
-    int texture = -1;
-    bool unlit = false;
+    SurfaceKind kind = 0;
   };
   const std::vector<Draw>& draws() const { return draws_; }  ///< opaque, then masked, then blended
   /// Around the draw's mesh as it is posed.
@@ -37,29 +38,39 @@ class GpuScene {
     return bounds_in_world_[&draw - draws_.data()];
   }
   bool mirrored(int node) const { return mirrored_[node]; }
+  /// Another number whenever pose() has moved something; never that of another scene that lives.
+  struct Stand {
+    GLuint scene = 0;
+    std::uint64_t moves = 0;
+    bool operator==(const Stand&) const = default;
+  };
+  Stand stand() const { return {nodes_.name(), moves_}; }
   /// Before the draws of this scene.
   void bind() const;
-  /// Before one draw: its node, material and texture.
-  void bind(const Draw& draw) const;
+  /// Before one draw: its node, its material, and those of its textures that `kind` names.
+  void bind(const Draw& draw, SurfaceKind kind) const;
 
  private:
   void upload_geometry(const Scene& scene, Style style);
+  void upload_details(const Scene& scene);
   void upload_materials(const Scene& scene, Style style);
-  void upload_textures(const Scene& scene, Style style);
   void list_draws(const Scene& scene);
 
   Scene skeleton_;  // nodes and animations
   std::size_t triangle_count_ = 0;
   std::vector<Draw> draws_;
   std::vector<Box3f> bounds_in_world_;  // of each draw
+  std::vector<Eigen::Matrix4f> world_from_nodes_;
+  std::uint64_t moves_ = 0;
   std::vector<bool> mirrored_;
+  std::vector<std::array<TextureUse, kTextureRoles>> texture_uses_;  // of each material
   gl::Buffer vertices_;
+  gl::Buffer details_;  // tangents and second texture coordinates, where a material asks for them
   gl::Buffer indices_;
   gl::Buffer materials_;  // uniform blocks, kBlockBytes apart
   gl::Buffer nodes_;      // the same
   gl::VertexArray vertex_array_;
-  std::vector<gl::Texture> textures_;
-  gl::Texture white_;
+  GpuTextures textures_;
 };
 
 }  // namespace vindu

@@ -200,9 +200,9 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
     const aiMesh& source_mesh = *source.mMeshes[i];
     const ImportedMaterial material =
         materials.import(source_mesh.mMaterialIndex, source_mesh.HasVertexColors(0));
-    const MeshOptions options = {.uv_channel = material.uv_channel,
-                                 .texture_from_uv = material.texture_from_uv,
-                                 .own_normals = loader == kBlenderLoader};
+    const MeshOptions options = {.uv_channels = material.uv_channels,
+                                 .own_normals = loader == kBlenderLoader,
+                                 .normal_map = material.normal_map};
     std::optional<Mesh> mesh = append_mesh(source_mesh, options, scene, losses);
     if (!mesh) continue;
     mesh->material = material.index;

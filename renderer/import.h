@@ -1,7 +1,7 @@
 // Any model file that Assimp reads, as a Scene. Static geometry, node transforms, node animation,
-// base colour and its texture (embedded or beside the file); missing normals are computed. A file
-// that cannot become a picture is an Error that says why and what to do; the caller keeps the scene
-// it had.
+// materials and their textures (embedded or beside the file); missing normals and tangents are
+// computed. A file that cannot become a picture is an Error that says why and what to do; the
+// caller keeps the scene it had.
 #pragma once
 
 #include <cstdint>

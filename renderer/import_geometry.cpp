@@ -5,6 +5,7 @@
 
 #include "renderer/import_dedupe.h"
 #include "renderer/import_normals.h"
+#include "renderer/import_tangents.h"
 
 namespace vindu {
 namespace {
@@ -21,10 +22,21 @@ bool usable_position(const aiVector3D& v) {
 Eigen::Vector3f vector_of(const aiVector3D& v) { return {v.x + 0.0f, v.y + 0.0f, v.z + 0.0f}; }
 
 /// Assimp's (0, 0) is the lower left of the texture, ours the upper left.
-Eigen::Vector2f uv_of(const aiVector3D& uv, const UvTransform& texture_from_uv) {
-  const Eigen::Vector2f result = texture_from_uv * Eigen::Vector3f(uv.x, 1 - uv.y, 1);
-  return result.allFinite() ? Eigen::Vector2f(result + Eigen::Vector2f::Zero())
-                            : Eigen::Vector2f::Zero();
+Eigen::Vector2f uv_of(const aiVector3D& uv) {
+  const Eigen::Vector2f result(uv.x + 0.0f, 1 - uv.y);
+  return result.allFinite() ? result : Eigen::Vector2f::Zero();
+}
+
+/// The file's tangent; left at zero where it gives no direction.
+void take_tangent(const aiMesh& mesh, unsigned index, Vertex& vertex) {
+  if (!mesh.HasTangentsAndBitangents() || !usable_position(mesh.mTangents[index]) ||
+      !usable_position(mesh.mBitangents[index]))
+    return;
+  const Eigen::Vector3f tangent = vector_of(mesh.mTangents[index]).stableNormalized();
+  if (std::abs(tangent.norm() - 1) > 1e-3f) return;
+  const Eigen::Vector3f bitangent = vector_of(mesh.mBitangents[index]);
+  vertex.tangent_in_node = tangent + Eigen::Vector3f::Zero();
+  vertex.bitangent_sign = vertex.normal_in_node.cross(tangent).dot(bitangent) < 0 ? -1.0f : 1.0f;
 }
 
 std::uint8_t byte_of(float value) {
@@ -56,14 +68,13 @@ class VertexReader {
  public:
   VertexReader(const aiMesh& mesh, const MeshOptions& options)
       : mesh_(mesh),
-        texture_from_uv_(options.texture_from_uv),
-        own_normals_(options.own_normals),
+        options_(options),
         colour_use_(mesh),
-        uv_channel_(mesh.HasTextureCoords(options.uv_channel) ? options.uv_channel : 0) {}
+        uv_channel_(mesh.HasTextureCoords(options.uv_channels[0]) ? options.uv_channels[0] : 0) {}
 
   /// Empty where the file's normal gives no direction.
   std::optional<Eigen::Vector3f> unit_normal(unsigned index) const {
-    if (own_normals_ || !mesh_.HasNormals() || !usable_position(mesh_.mNormals[index]))
+    if (options_.own_normals || !mesh_.HasNormals() || !usable_position(mesh_.mNormals[index]))
       return std::nullopt;
     const Eigen::Vector3f normal = vector_of(mesh_.mNormals[index]).stableNormalized();
     if (std::abs(normal.norm() - 1) > 1e-3f) return std::nullopt;
@@ -75,7 +86,12 @@ class VertexReader {
     vertex.position_in_node = vector_of(mesh_.mVertices[index]);
     vertex.normal_in_node = normal;
     if (mesh_.HasTextureCoords(uv_channel_))
-      vertex.uv = uv_of(mesh_.mTextureCoords[uv_channel_][index], texture_from_uv_);
+      vertex.uv = uv_of(mesh_.mTextureCoords[uv_channel_][index]);
+    const unsigned second = options_.uv_channels[1];
+    if (second != options_.uv_channels[0])
+      vertex.uv_1 =
+          mesh_.HasTextureCoords(second) ? uv_of(mesh_.mTextureCoords[second][index]) : vertex.uv;
+    if (options_.normal_map) take_tangent(mesh_, index, vertex);
     if (colour_use_.rgb) vertex.colour = colour_of(mesh_.mColors[0][index]);
     if (!colour_use_.alpha) vertex.colour[3] = 255;
     return vertex;
@@ -83,8 +99,7 @@ class VertexReader {
 
  private:
   const aiMesh& mesh_;
-  UvTransform texture_from_uv_;
-  bool own_normals_;
+  const MeshOptions& options_;
   ColourUse colour_use_;
   unsigned uv_channel_;
 };
@@ -170,6 +185,7 @@ std::optional<Mesh> append_mesh(const aiMesh& source, const MeshOptions& options
     append_as_given(source, reader, corners, scene);
   else
     append_with_normals(source, reader, corners, scene);
+  if (options.normal_map) complete_tangents(scene, mesh, *options.normal_map);
   mesh.bounds_in_node = bounds_of(scene, mesh);
   return mesh;
 }

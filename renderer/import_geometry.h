@@ -5,6 +5,7 @@
 
 #include <assimp/mesh.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -12,13 +13,13 @@
 
 namespace vindu {
 
-/// x_in_texture = texture_from_uv * (u, v, 1); (0, 0) is the upper left on both sides.
-using UvTransform = Eigen::Matrix<float, 2, 3>;
+/// Which of a mesh's texture coordinates the material uses: what becomes Vertex::uv and ::uv_1.
+using UvChannels = std::array<unsigned, 2>;
 
 struct MeshOptions {
-  unsigned uv_channel = 0;  ///< which of the mesh's texture coordinates the material uses
-  UvTransform texture_from_uv = UvTransform::Identity();
-  bool own_normals = false;  ///< the file's are not to be trusted: compute all
+  UvChannels uv_channels = {0, 0};
+  bool own_normals = false;              ///< the file's are not to be trusted: compute all
+  std::optional<TextureUse> normal_map;  ///< where there is one, vertices get tangents
 };
 
 /// What was left out, over all meshes.

@@ -6,64 +6,17 @@
 #include <cmath>
 #include <optional>
 
+#include "renderer/import_values.h"
+
 namespace vindu {
 namespace {
 
 /// What a surface of unknown material looks like: light grey, in sRGB.
 constexpr float kPlainGrey = 0.8f;
 
-std::optional<float> number(const aiMaterial& material, const char* key, unsigned type,
-                            unsigned index) {
-  float value = 0;
-  if (material.Get(key, type, index, value) != aiReturn_SUCCESS || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
-
-std::optional<Eigen::Vector4f> colour(const aiMaterial& material, const char* key, unsigned type,
-                                      unsigned index) {
-  aiColor4D value;
-  if (material.Get(key, type, index, value) != aiReturn_SUCCESS) return std::nullopt;
-  const Eigen::Vector4f rgba(value.r, value.g, value.b, value.a);
-  return rgba.allFinite() ? std::optional<Eigen::Vector4f>(rgba.cwiseMax(0)) : std::nullopt;
-}
-
-std::string text(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
-  aiString value;
-  return material.Get(key, type, index, value) == aiReturn_SUCCESS ? value.C_Str() : "";
-}
-
-int whole(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
-  int value = 0;
-  return material.Get(key, type, index, value) == aiReturn_SUCCESS ? value : 0;
-}
-
-std::string texture_name(const aiMaterial& material, aiTextureType type) {
-  return text(material, AI_MATKEY_TEXTURE(type, 0));
-}
-
 float unit(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
 Eigen::Vector3f unit(const Eigen::Vector3f& colour) { return colour.cwiseMax(0).cwiseMin(1); }
-
-/// KHR_texture_transform: offset + rotation * scale * uv, with the rotation matrix [c s; -s c].
-/// Assimp 5.2's loader rewrites it for a rotation about the texture's centre, which its own
-/// application of it then gets wrong; this undoes the rewriting (glTF2Importer.cpp,
-/// SetMaterialTextureProperty).
-UvTransform khr_texture_transform(const aiMaterial& material, aiTextureType type) {
-  aiUVTransform stored;
-  if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), stored) != aiReturn_SUCCESS)
-    return UvTransform::Identity();
-  const Eigen::Vector2f scale(stored.mScaling.x, stored.mScaling.y);
-  const float c = std::cos(-stored.mRotation);
-  const float s = std::sin(-stored.mRotation);
-  UvTransform texture_from_uv;
-  texture_from_uv << c * scale.x(), s * scale.y(),
-      stored.mTranslation.x - 0.5f * scale.x() * (1 - c + s),  //
-      -s * scale.x(), c * scale.y(),
-      1 - scale.y() + 0.5f * scale.y() * (s + c - 1) - stored.mTranslation.y;
-  return texture_from_uv.allFinite() ? texture_from_uv : UvTransform::Identity();
-}
 
 /// One material on its way into the scene.
 struct Conversion {
@@ -72,47 +25,68 @@ struct Conversion {
   TextureImporter& textures;
   std::vector<std::string>& warnings;
   Material material;
-  ImportedMaterial result;
+  std::vector<unsigned> uv_channels;  // in use; at most two
 
   void warn(const std::string& what) {
     warnings.push_back("material " + material.name + ": " + what);
   }
 
+  std::string name_of(aiTextureType type) const { return texture_name(source, type); }
+
+  /// Lays a picture on the surface as the file does with its texture of this type. False: there is
+  /// no picture.
+  bool use(TextureRole role, aiTextureType type, int image) {
+    if (image < 0) return false;
+    TextureUse& use = material.texture(role);
+    use = {.image = image,
+           .uv_set = uv_set_of(whole(source, AI_MATKEY_UVWSRC(type, 0))),
+           .wrap_u = wrap_of(source, AI_MATKEY_MAPPINGMODE_U(type, 0)),
+           .wrap_v = wrap_of(source, AI_MATKEY_MAPPINGMODE_V(type, 0))};
+    if (style == MaterialStyle::gltf) use.texture_from_uv = khr_texture_transform(source, type);
+    return true;
+  }
+
   /// The first of these types that the material has and that can be decoded, if there is one.
-  bool use_base_texture(std::initializer_list<aiTextureType> types) {
-    for (const aiTextureType type : types) {
-      const std::string name = texture_name(source, type);
-      material.base_colour_texture = textures.index_of(name);
-      if (material.base_colour_texture < 0) continue;
-      result.uv_channel =
-          static_cast<unsigned>(std::max(0, whole(source, AI_MATKEY_UVWSRC(type, 0))));
-      if (style == MaterialStyle::gltf)
-        result.texture_from_uv = khr_texture_transform(source, type);
-      return true;
+  bool use(TextureRole role, std::initializer_list<aiTextureType> types) {
+    return std::ranges::any_of(types, [&](aiTextureType type) {
+      return use(role, type, textures.index_of(name_of(type)));
+    });
+  }
+
+  int uv_set_of(int channel) {
+    const auto wanted = static_cast<unsigned>(std::max(0, channel));
+    const auto found = std::ranges::find(uv_channels, wanted);
+    if (found != uv_channels.end()) return static_cast<int>(found - uv_channels.begin());
+    if (uv_channels.size() == 2) {
+      warn("of its texture coordinates only two are used");
+      return 0;
     }
-    return false;
+    uv_channels.push_back(wanted);
+    return static_cast<int>(uv_channels.size()) - 1;
   }
 
-  /// glTF 2.0, 3.9.2: roughness in green, metalness in blue; Assimp calls this texture "unknown".
-  /// Only the means are used.
-  void use_mean_roughness() {
-    const std::optional<Rgba8> mean = textures.mean_of(texture_name(source, aiTextureType_UNKNOWN));
-    if (!mean) return;
-    material.roughness *= static_cast<float>((*mean)[1]) / 255;
-    material.metallic *= static_cast<float>((*mean)[2]) / 255;
-  }
-
-  /// A picture that glows on black, as scans often come, is an unlit base colour; on anything else
-  /// it is left out. Call it after the base colour is known.
+  /// A picture that glows on black, as scans often come, is an unlit base colour: it needs no
+  /// light. Call it after the base colour is known.
   void use_emissive(const Eigen::Vector3f& emissive) {
-    material.emissive = emissive;
-    if (emissive.isZero() || texture_name(source, aiTextureType_EMISSIVE).empty()) return;
+    const float intensity = number(source, AI_MATKEY_EMISSIVE_INTENSITY).value_or(1);
+    material.emissive = std::max(intensity, 0.0f) * emissive;
+    if (material.emissive.isZero() || name_of(aiTextureType_EMISSIVE).empty()) return;
+    const bool scan = material.base_colour.head<3>().isZero(1e-3f);
+    const TextureRole role = scan ? TextureRole::base_colour : TextureRole::emissive;
+    const bool found = use(role, {aiTextureType_EMISSIVE});
+    if (!found) material.emissive.setZero();  // the picture would have limited it
+    if (!found || !scan) return;
+    material.base_colour.head<3>() = material.emissive;
     material.emissive.setZero();
-    if (!material.base_colour.head<3>().isZero(1e-3f))
-      return warn("its emissive texture is not shown");
-    if (!use_base_texture({aiTextureType_EMISSIVE})) return;
-    material.base_colour.head<3>() = emissive;
     material.unlit = true;
+  }
+
+  ImportedMaterial result(int index) const {
+    ImportedMaterial imported{.index = index, .uv_channels = {0, 0}, .normal_map = {}};
+    std::ranges::copy(uv_channels, imported.uv_channels.begin());
+    const TextureUse& normal_map = material.texture(TextureRole::normal);
+    if (normal_map.image >= 0 && !material.unlit) imported.normal_map = normal_map;
+    return imported;
   }
 };
 
@@ -131,8 +105,8 @@ void convert_metallic_roughness(Conversion& conversion) {
   material.base_colour = colour(source, AI_MATKEY_BASE_COLOR).value_or(Eigen::Vector4f::Ones());
   material.metallic = unit(number(source, AI_MATKEY_METALLIC_FACTOR).value_or(1));
   material.roughness = unit(number(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1));
-  conversion.use_base_texture({aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
-  conversion.use_mean_roughness();
+  conversion.use(TextureRole::base_colour, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+  conversion.use(TextureRole::metallic_roughness, {aiTextureType_UNKNOWN});  // Assimp's name for it
 }
 
 /// KHR_materials_pbrSpecularGlossiness, of which diffuse and glossiness remain.
@@ -140,7 +114,21 @@ void convert_specular_glossiness(Conversion& conversion, float glossiness) {
   conversion.material.base_colour =
       colour(conversion.source, AI_MATKEY_COLOR_DIFFUSE).value_or(Eigen::Vector4f::Ones());
   conversion.material.roughness = 1 - unit(glossiness);
-  conversion.use_base_texture({aiTextureType_DIFFUSE});
+  conversion.use(TextureRole::base_colour, {aiTextureType_DIFFUSE});
+}
+
+/// glTF 2.0, 3.9.3.
+void convert_gltf_details(Conversion& conversion) {
+  const aiMaterial& source = conversion.source;
+  Material& material = conversion.material;
+  if (conversion.use(TextureRole::normal, {aiTextureType_NORMALS}))
+    material.normal_scale =
+        number(source, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0)).value_or(1);
+  if (conversion.use(TextureRole::occlusion, {aiTextureType_LIGHTMAP}))
+    material.occlusion_strength = unit(
+        number(source, AI_MATKEY_GLTF_TEXTURE_STRENGTH(aiTextureType_LIGHTMAP, 0)).value_or(1));
+  const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
+  if (emissive) conversion.use_emissive(emissive->head<3>());
 }
 
 void convert_gltf(Conversion& conversion) {
@@ -154,8 +142,7 @@ void convert_gltf(Conversion& conversion) {
     convert_specular_glossiness(conversion, *glossiness);
   else
     convert_metallic_roughness(conversion);
-  const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
-  if (emissive) conversion.use_emissive(emissive->head<3>());
+  convert_gltf_details(conversion);
 }
 
 /// The colour that goes with a texture: only OBJ's file format says that both are multiplied, and
@@ -182,13 +169,21 @@ void convert_legacy_alpha(Conversion& conversion) {
     conversion.material.alpha_mode = AlphaMode::blend;
     return;
   }
-  const std::string mask = texture_name(conversion.source, aiTextureType_OPACITY);
+  const std::string mask = conversion.name_of(aiTextureType_OPACITY);
   const int flags = whole(conversion.source, AI_MATKEY_TEXFLAGS_DIFFUSE(0));
-  const bool in_base_texture = mask == texture_name(conversion.source, aiTextureType_DIFFUSE);
-  if ((!mask.empty() && in_base_texture) || (flags & aiTextureFlags_UseAlpha))
+  const bool in_base_texture = mask == conversion.name_of(aiTextureType_DIFFUSE);
+  if ((!mask.empty() && in_base_texture) || (flags & aiTextureFlags_UseAlpha)) {
     conversion.material.alpha_mode = AlphaMode::mask;
-  else if (!mask.empty())
-    conversion.warn("its opacity texture is not shown");
+    return;
+  }
+  const int base = conversion.material.texture(TextureRole::base_colour).image;
+  const int masked = conversion.textures.index_with_channel(base, 3, mask);
+  if (masked == base) return;  // there is none
+  if (base < 0)
+    conversion.use(TextureRole::base_colour, aiTextureType_OPACITY, masked);
+  else
+    conversion.material.texture(TextureRole::base_colour).image = masked;
+  conversion.material.alpha_mode = AlphaMode::mask;
 }
 
 float legacy_roughness(const aiMaterial& source) {
@@ -198,22 +193,47 @@ float legacy_roughness(const aiMaterial& source) {
   return exponent && *exponent > 0 ? roughness_from_shininess(*exponent) : Material{}.roughness;
 }
 
+/// Formats before glTF have a picture for each of roughness, metalness and occlusion, if at all.
+void convert_legacy_pictures(Conversion& conversion) {
+  const aiMaterial& source = conversion.source;
+  Material& material = conversion.material;
+  for (const aiTextureType type :
+       {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA, aiTextureType_HEIGHT})
+    if (conversion.use(TextureRole::normal, type,
+                       conversion.textures.index_of_normal_map(conversion.name_of(type))))
+      break;
+  conversion.use(TextureRole::occlusion, {aiTextureType_AMBIENT_OCCLUSION});
+  const std::string roughness = conversion.name_of(aiTextureType_DIFFUSE_ROUGHNESS),
+                    metalness = conversion.name_of(aiTextureType_METALNESS);
+  const int rough = conversion.textures.index_with_channel(-1, 1, roughness);
+  const int both = conversion.textures.index_with_channel(rough, 2, metalness);
+  if (rough >= 0) material.roughness = 1;
+  if (both != rough) material.metallic = 1;
+  conversion.use(TextureRole::metallic_roughness,
+                 rough >= 0 ? aiTextureType_DIFFUSE_ROUGHNESS : aiTextureType_METALNESS, both);
+  const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
+  const bool glows = emissive && !emissive->head<3>().isZero();
+  if (glows)
+    conversion.use_emissive(unit(Eigen::Vector3f(emissive->head<3>())));
+  else if (!conversion.name_of(aiTextureType_EMISSIVE).empty())
+    conversion.use_emissive(Eigen::Vector3f::Ones());
+}
+
 void convert_legacy(Conversion& conversion, bool has_vertex_colours) {
   const aiMaterial& source = conversion.source;
   Material& material = conversion.material;
   // Only glTF defines which side of a face is its front; in older files the winding is often mixed.
   material.double_sided = true;
   const bool has_texture =
-      conversion.use_base_texture({aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR});
+      conversion.use(TextureRole::base_colour, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR});
   material.base_colour.head<3>() = legacy_tint(conversion, has_texture, has_vertex_colours);
   convert_legacy_alpha(conversion);
-  const auto emissive = colour(source, AI_MATKEY_COLOR_EMISSIVE);
-  if (emissive) conversion.use_emissive(unit(Eigen::Vector3f(emissive->head<3>())));
   material.roughness = legacy_roughness(source);
   if (const std::optional<float> metallic = number(source, AI_MATKEY_METALLIC_FACTOR)) {
     material.metallic = unit(*metallic);
     material.roughness = unit(number(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(0.6f));
   }
+  convert_legacy_pictures(conversion);
 }
 
 }  // namespace
@@ -237,9 +257,8 @@ ImportedMaterial MaterialImporter::import(unsigned source_index, bool has_vertex
     convert_gltf(conversion);
   else
     convert_legacy(conversion, has_vertex_colours);
+  entry->second = conversion.result(entry->second.index);
   materials_.push_back(std::move(conversion.material));
-  conversion.result.index = entry->second.index;
-  entry->second = conversion.result;
   return entry->second;
 }
 

@@ -6,6 +6,7 @@
 #include <assimp/scene.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,9 +25,9 @@ enum class MaterialStyle {
 };
 
 struct ImportedMaterial {
-  int index = 0;            ///< into take()'s result
-  unsigned uv_channel = 0;  ///< the texture coordinates that its base colour texture uses
-  UvTransform texture_from_uv = UvTransform::Identity();  ///< to be applied to them
+  int index = 0;                         ///< into take()'s result
+  UvChannels uv_channels = {0, 0};       ///< the texture coordinates that its textures use
+  std::optional<TextureUse> normal_map;  ///< vertices need tangents for it
 };
 
 /// Roughness whose GGX lobe is as wide as a Blinn-Phong lobe of this exponent: alpha^2 = 2 / (n +

@@ -1,8 +1,10 @@
 #include "renderer/import_textures.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <span>
@@ -94,14 +96,50 @@ std::optional<std::vector<std::uint8_t>> bytes_of(const fs::path& file) {
   return stream ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-Rgba8 mean_colour(const Image& image) {
-  std::array<std::uint64_t, 4> sum{};
-  for (const Rgba8& pixel : image.pixels)
-    for (std::size_t c = 0; c < 4; ++c) sum[c] += pixel[c];
-  Rgba8 mean{};
-  for (std::size_t c = 0; c < 4; ++c)
-    mean[c] = static_cast<std::uint8_t>((sum[c] + image.pixels.size() / 2) / image.pixels.size());
-  return mean;
+bool is_grey(const Image& image) {
+  return std::ranges::all_of(image.pixels, [](const Rgba8& pixel) {
+    return std::abs(pixel[0] - pixel[1]) < 4 && std::abs(pixel[1] - pixel[2]) < 4;
+  });
+}
+
+bool has_holes(const Image& image) {
+  return std::ranges::any_of(image.pixels, [](const Rgba8& pixel) { return pixel[3] < 255; });
+}
+
+std::uint8_t normal_code(float part) {
+  return static_cast<std::uint8_t>(std::lround(127.5f + 127.5f * part));
+}
+
+/// From black to white it rises by so many texels.
+constexpr float kHeight_texels = 4;
+
+/// Normals from heights by central differences; the picture repeats.
+Image normals_from_heights(const Image& heights) {
+  const int width = heights.width_px, height = heights.height_px;
+  const auto at = [&](int x, int y) {
+    return static_cast<float>(heights.at((x + width) % width, (y + height) % height)[0]) / 255;
+  };
+  Image normals = heights;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float across = 0.5f * kHeight_texels * (at(x + 1, y) - at(x - 1, y));
+      const float up = 0.5f * kHeight_texels * (at(x, y - 1) - at(x, y + 1));
+      const Eigen::Vector3f normal = Eigen::Vector3f(-across, -up, 1).normalized();
+      normals.at(x, y) = {normal_code(normal.x()), normal_code(normal.y()), normal_code(normal.z()),
+                          255};
+    }
+  return normals;
+}
+
+/// Sizes may differ: the nearest pixel counts.
+void copy_channel(const Image& from, std::size_t from_channel, Image& to, std::size_t to_channel) {
+  for (int y = 0; y < to.height_px; ++y)
+    for (int x = 0; x < to.width_px; ++x) {
+      const auto from_x = static_cast<std::int64_t>(x) * from.width_px / to.width_px;
+      const auto from_y = static_cast<std::int64_t>(y) * from.height_px / to.height_px;
+      to.at(x, y)[to_channel] =
+          from.at(static_cast<int>(from_x), static_cast<int>(from_y))[from_channel];
+    }
 }
 
 }  // namespace
@@ -119,24 +157,47 @@ TextureImporter::TextureImporter(const aiScene& source, fs::path folder, std::si
       pixels_left_(max_pixels),
       warnings_(warnings) {}
 
+int TextureImporter::keep(const std::string& key, Image image) {
+  if (image.pixels.size() > pixels_left_) {
+    warnings_.push_back("texture " + key + " is left out: too many pixels");
+    return -1;
+  }
+  pixels_left_ -= image.pixels.size();
+  textures_.push_back(std::move(image));
+  return index_of_name_[key] = static_cast<int>(textures_.size()) - 1;
+}
+
 int TextureImporter::index_of(const std::string& name) {
   if (name.empty()) return -1;
   const auto [entry, is_new] = index_of_name_.try_emplace(name, -1);
   if (!is_new) return entry->second;
   std::optional<Image> image = load(name);
-  if (!image) return -1;
-  pixels_left_ -= image->pixels.size();
-  entry->second = static_cast<int>(textures_.size());
-  textures_.push_back(std::move(*image));
-  return entry->second;
+  return image ? keep(name, std::move(*image)) : -1;
 }
 
-std::optional<Rgba8> TextureImporter::mean_of(const std::string& name) {
-  if (name.empty()) return std::nullopt;
-  const auto [entry, is_new] = mean_of_name_.try_emplace(name);
-  if (is_new)
-    if (const std::optional<Image> image = load(name)) entry->second = mean_colour(*image);
-  return entry->second;
+int TextureImporter::index_of_normal_map(const std::string& name) {
+  if (name.empty()) return -1;
+  const std::string key = name + " as normals";
+  const auto [entry, is_new] = index_of_name_.try_emplace(key, -1);
+  if (!is_new) return entry->second;
+  std::optional<Image> image = load(name);
+  if (!image) return -1;
+  return keep(key, is_grey(*image) ? normals_from_heights(*image) : std::move(*image));
+}
+
+int TextureImporter::index_with_channel(int base, std::size_t channel, const std::string& name) {
+  if (name.empty()) return base;
+  const std::string key =
+      std::to_string(base) + " with channel " + std::to_string(channel) + " of " + name;
+  const auto [entry, is_new] = index_of_name_.try_emplace(key, base);
+  if (!is_new) return entry->second;
+  const std::optional<Image> from = load(name);
+  if (!from) return base;
+  Image image = base < 0 ? Image::filled(from->width_px, from->height_px, {255, 255, 255, 255})
+                         : textures_[static_cast<std::size_t>(base)];
+  copy_channel(*from, channel == 3 && has_holes(*from) ? 3 : 0, image, channel);
+  const int kept = keep(key, std::move(image));
+  return kept < 0 ? base : kept;
 }
 
 std::optional<Image> TextureImporter::load(const std::string& name) {

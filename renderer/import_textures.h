@@ -30,12 +30,18 @@ class TextureImporter {
   /// Index of the picture in take()'s result, or -1.
   int index_of(const std::string& name);
 
-  /// Mean of each channel as stored, 0 to 1, of a picture that is not kept.
-  std::optional<Rgba8> mean_of(const std::string& name);
+  /// The same for a picture that says how a surface's normals turn: one of heights, which is grey,
+  /// becomes one of normals.
+  int index_of_normal_map(const std::string& name);
+
+  /// A copy of picture `base` (white without one, -1) whose `channel` (0 to 3) is the named
+  /// picture: its alpha if it has holes, else its red. `base` where there is no such picture.
+  int index_with_channel(int base, std::size_t channel, const std::string& name);
 
   std::vector<Image> take() { return std::move(textures_); }
 
  private:
+  int keep(const std::string& key, Image image);
   std::optional<Image> load(const std::string& name);
   std::optional<Image> from_embedded(const aiTexture& texture, const std::string& name);
   std::optional<Image> from_file(const std::string& name);
@@ -45,8 +51,7 @@ class TextureImporter {
   std::filesystem::path folder_;
   std::size_t pixels_left_;
   std::vector<std::string>& warnings_;
-  std::map<std::string, int> index_of_name_;
-  std::map<std::string, std::optional<Rgba8>> mean_of_name_;
+  std::map<std::string, int> index_of_name_;  // of derived pictures with what was done to them
   std::vector<Image> textures_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,9 +18,33 @@ namespace vindu {
 struct Vertex {
   Eigen::Vector3f position_in_node = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal_in_node = Eigen::Vector3f::UnitZ();
-  Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< (0, 0) is the upper left of the texture
-  Rgba8 colour = {255, 255, 255, 255};           ///< times the material's base colour
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();    ///< (0, 0) is the upper left of the texture
+  Rgba8 colour = {255, 255, 255, 255};             ///< times the material's base colour
+  Eigen::Vector2f uv_1 = Eigen::Vector2f::Zero();  ///< for textures with TextureUse::uv_set 1
+  /// Where a normal map's +x points; its +y is cross(normal, tangent) * bitangent_sign. Zero where
+  /// the material has no normal map.
+  Eigen::Vector3f tangent_in_node = Eigen::Vector3f::Zero();
+  float bitangent_sign = 1;
 };
+
+enum class Wrap { repeat, mirror, clamp };
+
+/// x_in_texture = texture_from_uv * (u, v, 1); (0, 0) is the upper left on both sides.
+using UvTransform = Eigen::Matrix<float, 2, 3>;
+
+/// How a material lays a picture on its surface.
+struct TextureUse {
+  int image = -1;  ///< index into Scene::textures, or -1: none
+  int uv_set = 0;  ///< Vertex::uv or Vertex::uv_1
+  UvTransform texture_from_uv = UvTransform::Identity();
+  Wrap wrap_u = Wrap::repeat;
+  Wrap wrap_v = Wrap::repeat;
+};
+
+/// What a picture says of a surface: base colour and alpha, sRGB; roughness in green and metalness
+/// in blue; the normal, +y up the picture; occlusion in red; emitted light, sRGB.
+enum class TextureRole { base_colour, metallic_roughness, normal, occlusion, emissive };
+constexpr std::size_t kTextureRoles = 5;
 
 enum class AlphaMode { opaque, mask, blend };
 
@@ -28,14 +53,21 @@ enum class AlphaMode { opaque, mask, blend };
 struct Material {
   std::string name;
   Eigen::Vector4f base_colour = Eigen::Vector4f::Ones();
-  int base_colour_texture = -1;  ///< index into Scene::textures, or -1
   float metallic = 0;
   float roughness = 0.6f;
   Eigen::Vector3f emissive = Eigen::Vector3f::Zero();
+  float normal_scale = 1;
+  float occlusion_strength = 1;
+  std::array<TextureUse, kTextureRoles> textures{};  ///< by role; times the numbers above
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   bool unlit = false;  ///< KHR_materials_unlit: the base colour as it is
+
+  TextureUse& texture(TextureRole role) { return textures[static_cast<std::size_t>(role)]; }
+  const TextureUse& texture(TextureRole role) const {
+    return textures[static_cast<std::size_t>(role)];
+  }
 };
 
 using Box3f = Eigen::AlignedBox3f;
@@ -75,8 +107,8 @@ struct Animation {
   std::vector<AnimationChannel> channels;
 };
 
-/// How a file's numbers for the colours of materials and vertices mean light. Textures are always
-/// sRGB.
+/// How a file's numbers for the colours of materials and vertices mean light. Pictures of colours
+/// are always sRGB.
 enum class ColourCoding { linear, srgb };
 
 /// The sRGB transfer function (IEC 61966-2-1), decoding: [0, 1] -> [0, 1].
@@ -88,7 +120,7 @@ struct Scene {
   std::vector<std::uint32_t> indices;
   std::vector<Mesh> meshes;
   std::vector<Material> materials;  ///< at least one where there is a mesh
-  std::vector<Image> textures;      ///< sRGB
+  std::vector<Image> textures;
   std::vector<Node> nodes;
   std::vector<Animation> animations;
   ColourCoding colours = ColourCoding::linear;

@@ -1,96 +1,14 @@
 #include "renderer/scene_renderer.h"
 
-#include <algorithm>
-#include <string>
-#include <vector>
+#include <optional>
 
 #include "renderer/gl/convert.h"
 
 namespace vindu {
-namespace {
 
-/// Nothing of the box is inside the view: it lies wholly outside one of its planes. In clip space
-/// -w <= x, y <= w and z <= w are half-spaces of the world, also for points behind the eye, so the
-/// test holds for any off-axis frustum. The box's farthest point along a plane's normal decides.
-bool outside(const Mat4& clip_from_world, const Box3f& box) {
-  const Vec3 middle = box.center().cast<double>(), half = 0.5 * box.sizes().cast<double>();
-  const auto beyond = [&](const Eigen::RowVector4d& plane) {
-    return plane.head<3>().dot(middle) + plane[3] + plane.head<3>().cwiseAbs().dot(half) < 0;
-  };
-  const Eigen::RowVector4d w = clip_from_world.row(3);
-  for (const int axis : {0, 1})
-    if (beyond(w + clip_from_world.row(axis)) || beyond(w - clip_from_world.row(axis))) return true;
-  return beyond(w - clip_from_world.row(2));
-}
-
-/// The draws of one kind, by distance from the eye: blended ones farthest first, by their middle,
-/// so that what is behind shines through; solid ones nearest first, by their nearest point, so that
-/// little is drawn twice. The eye decides, not the tile: neighbours agree.
-std::vector<const GpuScene::Draw*> sorted_draws(const GpuScene& scene, const Vec3& eye_in_world,
-                                                bool blended) {
-  std::vector<std::pair<double, const GpuScene::Draw*>> found;
-  for (const GpuScene::Draw& draw : scene.draws()) {
-    if ((draw.alpha_mode == AlphaMode::blend) != blended) continue;
-    const Box3f& box = scene.bounds_in_world(draw);
-    const Eigen::Vector3f eye = eye_in_world.cast<float>();
-    found.emplace_back(blended ? -(box.center() - eye).norm() : box.exteriorDistance(eye), &draw);
-  }
-  std::ranges::stable_sort(found, {}, &std::pair<double, const GpuScene::Draw*>::first);
-  std::vector<const GpuScene::Draw*> sorted;
-  for (const auto& [distance, draw] : found) sorted.push_back(draw);
-  return sorted;
-}
-
-/// Draws of one node and material, in one call.
-struct Batch {
-  const GpuScene::Draw* first = nullptr;
-  std::vector<GLsizei> counts;
-  std::vector<const void*> offsets;
-};
-
-bool alike(const GpuScene::Draw& a, const GpuScene::Draw& b) {
-  return a.node == b.node && a.mesh.material == b.mesh.material;
-}
-
-/// Joins the draw to its like: to any for solid ones, only to the last for blended ones, whose
-/// order matters.
-void add_to_batch(const GpuScene::Draw& draw, bool keep_order, std::vector<Batch>& batches) {
-  const auto begin = keep_order && !batches.empty() ? batches.end() - 1 : batches.begin();
-  auto batch = std::find_if(begin, batches.end(),
-                            [&](const Batch& other) { return alike(*other.first, draw); });
-  if (batch == batches.end())
-    batch = batches.insert(batch, {.first = &draw, .counts = {}, .offsets = {}});
-  const auto offset = static_cast<std::uintptr_t>(draw.mesh.first_index) * sizeof(std::uint32_t);
-  batch->counts.push_back(static_cast<GLsizei>(draw.mesh.index_count));
-  batch->offsets.push_back(reinterpret_cast<const void*>(offset));
-}
-
-/// Index of the program for a surface: bit 0 textured, bit 1 unlit.
-std::size_t kind_of(const GpuScene::Draw& draw) {
-  return (draw.texture >= 0 ? 1u : 0u) | (draw.unlit ? 2u : 0u);
-}
-
-gl::Program scene_program(Style style, unsigned kind) {
-  std::string defines = style == Style::unlit ? "#define MEASURE\n" : "";
-  if (kind & 1) defines += "#define TEXTURED\n";
-  if (kind & 2) defines += "#define UNLIT\n";
-  return {"scene.vert", "scene.frag", defines};
-}
-
-}  // namespace
-
-DrawCount& DrawCount::operator+=(const DrawCount& other) {
-  draws += other.draws;
-  culled += other.culled;
-  triangles += other.triangles;
-  culled_triangles += other.culled_triangles;
-  return *this;
-}
-
-SceneRenderer::SceneRenderer(Style style)
-    : style_(style),
-      scene_programs_{scene_program(style, 0), scene_program(style, 1), scene_program(style, 2),
-                      scene_program(style, 3)},
+SceneRenderer::SceneRenderer(const Look& look)
+    : look_(look),
+      scene_programs_("scene.frag", look),
       background_program_("fullscreen.vert", "background.frag"),
       panel_program_("panel.vert", "panel.frag"),
       present_program_("fullscreen.vert", "present.frag"),
@@ -101,15 +19,16 @@ SceneRenderer::SceneRenderer(Style style)
 }
 
 DrawCount SceneRenderer::draw(const View& view, std::span<const GpuScene* const> scenes,
-                              std::span<const Panel> panels) const {
+                              std::span<const Panel> panels, const ShadowMap* shadow) const {
   DrawCount count;
+  if (shadow) glBindTextureUnit(kShadowUnit, shadow->texture());
   glEnable(GL_DEPTH_TEST);
-  for (const GpuScene* scene : scenes) draw_scene(view, *scene, false, count);
+  for (const GpuScene* scene : scenes) draw_scene({view, shadow, false}, *scene, count);
   for (const Panel& panel : panels) draw_panel(view, panel);
-  if (style_ == Style::lit) draw_background(view);
+  if (style() == Style::lit) draw_background(view);
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
-  for (const GpuScene* scene : scenes) draw_scene(view, *scene, true, count);
+  for (const GpuScene* scene : scenes) draw_scene({view, shadow, true}, *scene, count);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
@@ -124,28 +43,46 @@ void SceneRenderer::draw_panels(const View& view, std::span<const Panel> panels)
   glDisable(GL_CULL_FACE);
 }
 
-void SceneRenderer::draw_scene(const View& view, const GpuScene& scene, bool blended,
-                               DrawCount& count) const {
-  for (const gl::Program& program : scene_programs_) {
-    program.set("clip_from_world", gl::mat4_from(view.clip_from_world));
-    program.set("eye_in_world", gl::vec3_from(view.eye_in_world));
+SurfaceKind SceneRenderer::kind_drawn(const GpuScene::Draw& draw, const ShadowMap* shadow) const {
+  if (style() == Style::unlit) return draw.kind & kMeasured;
+  return is_lit(draw) && shadow && shadow->in_use() ? draw.kind | kShadowed : draw.kind;
+}
+
+void SceneRenderer::prepare(const GpuScene& scene, const ShadowMap* shadow) const {
+  for (const GpuScene::Draw& draw : scene.draws()) scene_programs_.of(kind_drawn(draw, shadow));
+}
+
+void SceneRenderer::use_program(const Pass& pass, SurfaceKind kind) const {
+  const gl::Program& program = scene_programs_.of(kind);
+  program.set("clip_from_world", gl::mat4_from(pass.view.clip_from_world));
+  program.set("eye_in_world", gl::vec3_from(pass.view.eye_in_world));
+  program.set("to_key", gl::vec3_from(to_key_light()));
+  if (kind & kShadowed) {
+    program.set("map_from_world", gl::mat4_from(pass.shadow->fit().map_from_world));
+    program.set("shadow_texel_m", static_cast<float>(pass.shadow->fit().texel_m));
   }
+  program.use();
+}
+
+void SceneRenderer::draw_scene(const Pass& pass, const GpuScene& scene, DrawCount& count) const {
   scene.bind();
-  std::vector<Batch> batches;
-  for (const GpuScene::Draw* draw : sorted_draws(scene, view.eye_in_world, blended)) {
-    const bool culled = outside(view.clip_from_world, scene.bounds_in_world(*draw));
-    const std::uint64_t triangles = draw->mesh.index_count / 3;
-    count += {1, culled, triangles, culled ? triangles : 0};
-    if (!culled) add_to_batch(*draw, blended, batches);
+  std::optional<SurfaceKind> in_use;
+  for (const Batch& batch : batches_in_view(pass.view, scene, pass.blended, count)) {
+    const GpuScene::Draw& draw = *batch.first;
+    const SurfaceKind kind = kind_drawn(draw, pass.shadow);
+    if (in_use != kind) use_program(pass, kind);
+    in_use = kind;
+    scene.bind(draw, kind);
+    glFrontFace(scene.mirrored(draw.node) ? GL_CW : GL_CCW);
+    (draw.double_sided && !pass.blended ? glDisable : glEnable)(GL_CULL_FACE);
+    if (draw.double_sided && pass.blended) {  // the far side shines through the near one
+      glCullFace(GL_FRONT);
+      batch.draw();
+      glCullFace(GL_BACK);
+    }
+    batch.draw();
   }
-  for (const Batch& batch : batches) {
-    scene_programs_[kind_of(*batch.first)].use();
-    scene.bind(*batch.first);
-    (batch.first->double_sided ? glDisable : glEnable)(GL_CULL_FACE);
-    glFrontFace(scene.mirrored(batch.first->node) ? GL_CW : GL_CCW);
-    glMultiDrawElements(GL_TRIANGLES, batch.counts.data(), GL_UNSIGNED_INT, batch.offsets.data(),
-                        static_cast<GLsizei>(batch.counts.size()));
-  }
+  unbind_samplers();
 }
 
 void SceneRenderer::draw_panel(const View& view, const Panel& panel) const {
@@ -181,7 +118,7 @@ void SceneRenderer::present(const Picture& picture, const TileMount& mount) cons
   present_program_.set("picture_from_display", gl::mat3_from(picture_from_display(mount)));
   glBindTextureUnit(0, picture.texture());
   glBindVertexArray(no_vertices_.name());
-  (style_ == Style::lit ? glEnable : glDisable)(GL_FRAMEBUFFER_SRGB);
+  (style() == Style::lit ? glEnable : glDisable)(GL_FRAMEBUFFER_SRGB);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -1,15 +1,12 @@
 // Draws scenes and flat pictures as seen through views: one lit pass, physically plausible
-// (metallic-roughness, one key light, an analytic environment), or unlit for measuring. Depth is
-// reversed and infinite. Bound to the render thread.
+// (metallic-roughness, one key light with its shadow, an analytic environment), or unlit for
+// measuring. Depth is reversed and infinite. Bound to the render thread.
 #pragma once
 
-#include <array>
 #include <span>
 
-#include "renderer/canvas.h"
-#include "renderer/gl/program.h"
-#include "renderer/gpu_scene.h"
-#include "renderer/view.h"
+#include "renderer/draw_list.h"
+#include "renderer/shadow_map.h"
 
 namespace vindu {
 
@@ -22,25 +19,21 @@ struct Panel {
   Vec2 uv_high = {1, 1};
 };
 
-struct DrawCount {
-  int draws = 0;
-  int culled = 0;
-  std::uint64_t triangles = 0;         ///< of all draws
-  std::uint64_t culled_triangles = 0;  ///< of the culled ones
-
-  DrawCount& operator+=(const DrawCount& other);
-};
-
 class SceneRenderer {
  public:
-  explicit SceneRenderer(Style style);
+  explicit SceneRenderer(const Look& look);
+  explicit SceneRenderer(Style style) : SceneRenderer(Look{style}) {}
 
-  Style style() const { return style_; }
+  const Look& look() const { return look_; }
+  Style style() const { return look_.style; }
+
+  /// Links the programs that the scene needs, so that drawing does not wait for them.
+  void prepare(const GpuScene& scene, const ShadowMap* shadow) const;
 
   /// Into the canvas that was begun last. The scenes must be posed. Blended surfaces are sorted by
-  /// distance from the eye.
+  /// distance from the eye. `shadow`: of these scenes, as they stand.
   DrawCount draw(const View& view, std::span<const GpuScene* const> scenes,
-                 std::span<const Panel> panels = {}) const;
+                 std::span<const Panel> panels = {}, const ShadowMap* shadow = nullptr) const;
 
   /// Flat pictures alone, in the dark: what an eye sees of the wall.
   void draw_panels(const View& view, std::span<const Panel> panels) const;
@@ -49,13 +42,20 @@ class SceneRenderer {
   void present(const Picture& picture, const TileMount& mount) const;
 
  private:
-  void draw_scene(const View& view, const GpuScene& scene, bool blended, DrawCount& count) const;
+  /// What the batches of a pass have in common.
+  struct Pass {
+    const View& view;
+    const ShadowMap* shadow;
+    bool blended;
+  };
+  void draw_scene(const Pass& pass, const GpuScene& scene, DrawCount& count) const;
+  SurfaceKind kind_drawn(const GpuScene::Draw& draw, const ShadowMap* shadow) const;
+  void use_program(const Pass& pass, SurfaceKind kind) const;
   void draw_panel(const View& view, const Panel& panel) const;
   void draw_background(const View& view) const;
 
-  Style style_;
-  // One program a kind of surface: a CPU that draws runs both sides of every branch.
-  std::array<gl::Program, 4> scene_programs_;
+  Look look_;
+  ScenePrograms scene_programs_;
   gl::Program background_program_;
   gl::Program panel_program_;
   gl::Program present_program_;

@@ -46,7 +46,7 @@ WallLayout layout_of(const Wall& wall, double scale) {
 WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look)
     : wall_(wall),
       layout_(layout_of(wall, scale)),
-      renderer_(look.style),
+      renderer_(look),
       picture_(std::make_unique<Picture>(layout_.size, look.style)) {
   picture_->clear({0, 0, 0, 255});
   for (const RectPx& tile : layout_.tiles) {
@@ -60,6 +60,8 @@ WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look)
   cells_x_ = std::clamp(kCanvasSide_px / cell_.width, 1, together);
   cells_y_ = std::clamp(kCanvasSide_px / cell_.height, 1, (together + cells_x_ - 1) / cells_x_);
   canvas_ = std::make_unique<Canvas>(SizePx{cells_x_ * cell_.width, cells_y_ * cell_.height}, look);
+  if (look.style == Style::lit && look.shadows != Shadows::none)
+    shadow_ = std::make_unique<ShadowMap>(look);
 }
 
 void WallRenderer::show(const Scene& scene) {
@@ -68,13 +70,15 @@ void WallRenderer::show(const Scene& scene) {
 }
 
 void WallRenderer::prepare(const Scene& scene) {
-  prepared_ = std::make_unique<GpuScene>(scene, renderer_.style());
+  prepared_ = std::make_unique<GpuScene>(scene, renderer_.look());
   prepared_->pose(Mat4::Identity(), 0);
   const auto view = tile_view(wall_.tiles.front().corners, Vec3(0, 0, 2));
   const GpuScene* const drawn = prepared_.get();
+  if (shadow_) shadow_->update(std::span(&drawn, 1), shadow_region(wall_));
+  renderer_.prepare(*prepared_, shadow_.get());
   canvas_->begin();
   canvas_->draw_into({0, 0, cell_});
-  if (view) renderer_.draw(*view, std::span(&drawn, 1));
+  if (view) renderer_.draw(*view, std::span(&drawn, 1), {}, shadow_.get());
   glFinish();
 }
 
@@ -89,6 +93,7 @@ WallFrame WallRenderer::draw(const FrameState& state, const Tile* only) {
   std::vector<std::size_t> wanted;
   for (std::size_t index = 0; index < wall_.tiles.size(); ++index)
     if (!only || only->name == wall_.tiles[index].name) wanted.push_back(index);
+  update_shadow(state, wanted);
   WallFrame frame;
   frame.tile_counts.resize(wall_.tiles.size());
   const std::size_t together = static_cast<std::size_t>(cells_x_) * cells_y_;
@@ -97,6 +102,17 @@ WallFrame WallRenderer::draw(const FrameState& state, const Tile* only) {
     draw_together(state, std::span(wanted).subspan(first, count), frame);
   }
   return frame;
+}
+
+/// Only where one of the tiles shows something that is lit: most tiles of a wall may not.
+void WallRenderer::update_shadow(const FrameState& state, std::span<const std::size_t> tiles) {
+  if (!scene_ || !shadow_) return;
+  const GpuScene* const scene = scene_.get();
+  const bool needed = std::ranges::any_of(tiles, [&](std::size_t tile) {
+    const auto view = tile_view(wall_.tiles[tile].corners, state.eye_in_wall);
+    return view && sees_lit(*view, *scene);
+  });
+  if (needed) shadow_->update(std::span(&scene, 1), shadow_region(wall_));
 }
 
 void WallRenderer::draw_together(const FrameState& state, std::span<const std::size_t> tiles,
@@ -116,7 +132,7 @@ void WallRenderer::draw_together(const FrameState& state, std::span<const std::s
       continue;
     }
     canvas_->draw_into(cell(order));
-    const DrawCount count = renderer_.draw(*view, scenes);
+    const DrawCount count = renderer_.draw(*view, scenes, {}, shadow_.get());
     frame.count += count;
     frame.tile_counts[tiles[order]] = count;
   }

@@ -57,6 +57,7 @@ class WallRenderer {
   std::vector<Panel> panels(const Rigid3& world_from_wall) const;
 
  private:
+  void update_shadow(const FrameState& state, std::span<const std::size_t> tiles);
   void draw_together(const FrameState& state, std::span<const std::size_t> tiles, WallFrame& frame);
 
   Wall wall_;
@@ -70,6 +71,7 @@ class WallRenderer {
   int cells_y_ = 1;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<GpuScene> scene_, prepared_;
+  std::unique_ptr<ShadowMap> shadow_;  // of scene_; none where no light is drawn
 };
 
 }  // namespace vindu

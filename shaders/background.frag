@@ -1,6 +1,5 @@
 // What is behind everything: a studio backdrop by direction, calmer than the light that the scene
 // gets.
-#include "environment.glsl"
 
 layout(location = 0) in vec2 ndc;
 uniform mat3 direction_from_ndc;  // in world

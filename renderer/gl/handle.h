@@ -41,6 +41,9 @@ struct VertexArrayTraits {
 struct TextureTraits {
   static void destroy(GLuint name) { glDeleteTextures(1, &name); }
 };
+struct SamplerTraits {
+  static void destroy(GLuint name) { glDeleteSamplers(1, &name); }
+};
 struct RenderbufferTraits {
   static void destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
 };
@@ -61,6 +64,7 @@ struct QueryTraits {
 using Buffer = Handle<BufferTraits>;
 using VertexArray = Handle<VertexArrayTraits>;
 using Texture = Handle<TextureTraits>;
+using Sampler = Handle<SamplerTraits>;
 using Renderbuffer = Handle<RenderbufferTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 using Shader = Handle<ShaderTraits>;
@@ -76,6 +80,12 @@ inline Texture make_texture_2d() {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
   return Texture(name);
+}
+
+inline Sampler make_sampler() {
+  GLuint name = 0;
+  glCreateSamplers(1, &name);
+  return Sampler(name);
 }
 
 inline Framebuffer make_framebuffer() {

@@ -15,7 +15,7 @@ class MaterialsGl : public GlTest {};
 constexpr float level(int byte) { return static_cast<float>(byte) / 255; }
 
 Scene textured(const Image& texture, Material material = plain(1, 1, 1)) {
-  material.base_colour_texture = 0;
+  material.texture(TextureRole::base_colour).image = 0;
   Scene scene = square_scene(material);
   scene.textures.push_back(texture);
   return scene;

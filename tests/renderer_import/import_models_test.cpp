@@ -44,7 +44,8 @@ void expect_sound(const Scene& scene) {
     EXPECT_LT(std::size_t(mesh.material), scene.materials.size());
   }
   for (const Material& material : scene.materials) {
-    EXPECT_LT(material.base_colour_texture, static_cast<int>(scene.textures.size()));
+    EXPECT_LT(material.texture(TextureRole::base_colour).image,
+              static_cast<int>(scene.textures.size()));
     EXPECT_TRUE(material.base_colour.allFinite());
     EXPECT_TRUE(material.roughness >= 0 && material.roughness <= 1) << material.roughness;
     EXPECT_TRUE(material.metallic >= 0 && material.metallic <= 1) << material.metallic;

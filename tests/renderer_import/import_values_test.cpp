@@ -136,7 +136,7 @@ TEST(ImportGltf, FactorsAreTakenAsTheyAre) {
   EXPECT_TRUE(material.emissive.isApprox(Eigen::Vector3f(0.5f, 0.25f, 0.125f)));
   EXPECT_TRUE(material.double_sided);
   EXPECT_EQ(material.alpha_mode, AlphaMode::opaque);  // whatever the factor's alpha
-  EXPECT_EQ(material.base_colour_texture, -1);
+  EXPECT_EQ(material.texture(TextureRole::base_colour).image, -1);
   EXPECT_FALSE(material.unlit);
 }
 
@@ -179,30 +179,51 @@ TEST(ImportGltf, EmbeddedTextureIsDecoded) {
                   .more = texture_member()});
 
   ASSERT_EQ(scene.textures.size(), 1u);
-  EXPECT_EQ(scene.materials.at(0).base_colour_texture, 0);
+  EXPECT_EQ(scene.materials.at(0).texture(TextureRole::base_colour).image, 0);
   EXPECT_EQ(scene.textures[0].width_px, 2);
   EXPECT_EQ(scene.textures[0].at(1, 0), (Rgba8{0, 255, 0, 128}));
 }
 
-TEST(ImportGltf, RoughnessTextureCountsWithItsMean) {
-  const Scene scene = gltf_scene({.material = R"({"pbrMetallicRoughness": {"roughnessFactor": 0.5,
-                                      "metallicRoughnessTexture": {"index": 0}}})",
-                                  .more = texture_member()});
+/// Base colour, and each of the other four pictures with what belongs to it.
+constexpr const char* kAllTextures = R"({
+    "emissiveFactor": [1, 0.5, 0.25], "emissiveTexture": {"index": 0},
+    "normalTexture": {"index": 0, "scale": 0.5},
+    "occlusionTexture": {"index": 0, "strength": 0.75},
+    "pbrMetallicRoughness": {"roughnessFactor": 0.5, "baseColorTexture": {"index": 0},
+                             "metallicRoughnessTexture": {"index": 0}}})";
 
-  // Green: 0 and 255; blue: 0.
-  EXPECT_NEAR(scene.materials.at(0).roughness, 0.25, 0.002);
-  EXPECT_NEAR(scene.materials.at(0).metallic, 0, 1e-6);
-  EXPECT_THAT(scene.textures, IsEmpty());
+TEST(ImportGltf, AllFivePicturesAreTakenOver) {
+  const Scene scene = gltf_scene({.material = kAllTextures, .more = texture_member()});
+
+  const Material& material = scene.materials.at(0);
+  EXPECT_EQ(scene.textures.size(), 1u);  // it is one picture
+  for (const TextureUse& use : material.textures) EXPECT_GE(use.image, 0);
+  EXPECT_FLOAT_EQ(material.roughness, 0.5f);
+  EXPECT_FLOAT_EQ(material.metallic, 1);
+  EXPECT_FLOAT_EQ(material.normal_scale, 0.5f);
+  EXPECT_FLOAT_EQ(material.occlusion_strength, 0.75f);
+  EXPECT_TRUE(material.emissive.isApprox(Eigen::Vector3f(1, 0.5f, 0.25f)));
 }
 
-TEST(ImportGltf, AGlowThatOnlyATextureLimitsIsLeftOut) {
-  const ImportResult result = imported(
-      "quad.gltf",
-      gltf_quad({.material = R"({"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}})",
-                 .more = texture_member()}));
+TEST(ImportGltf, ANormalMapGivesTheVerticesTangents) {
+  const Scene scene = gltf_scene({.material = kAllTextures, .more = texture_member()});
 
-  EXPECT_TRUE(result.scene.materials.at(0).emissive.isZero());
-  EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("emissive")));
+  for (const Vertex& vertex : scene.vertices) {
+    EXPECT_TRUE(vertex.tangent_in_node.isApprox(Eigen::Vector3f::UnitX()));
+    EXPECT_EQ(vertex.bitangent_sign, 1);
+  }
+}
+
+TEST(ImportGltf, ASamplersWrappingIsThatOfTheTexture) {
+  std::string textures = texture_member();
+  textures.replace(textures.rfind("{\"source\": 0}"), 13, R"({"source": 0, "sampler": 0})");
+  const Scene scene =
+      gltf_scene({.material = R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
+                  .more = textures + R"(, "samplers": [{"wrapS": 33648, "wrapT": 33071}])"});
+
+  const TextureUse& use = scene.materials.at(0).texture(TextureRole::base_colour);
+  EXPECT_EQ(use.wrap_u, Wrap::mirror);
+  EXPECT_EQ(use.wrap_v, Wrap::clamp);
 }
 
 TEST(ImportGltf, APictureThatGlowsOnBlackIsUnlit) {
@@ -215,7 +236,7 @@ TEST(ImportGltf, APictureThatGlowsOnBlackIsUnlit) {
   const Material& material = result.scene.materials.at(0);
   EXPECT_TRUE(material.unlit);
   EXPECT_EQ(material.base_colour, Eigen::Vector4f(1, 0.5f, 1, 1));
-  EXPECT_EQ(material.base_colour_texture, 0);
+  EXPECT_EQ(material.texture(TextureRole::base_colour).image, 0);
   EXPECT_TRUE(material.emissive.isZero());
   EXPECT_THAT(result.warnings, IsEmpty());
 }
@@ -229,10 +250,14 @@ TEST(ImportGltf, TextureTransformIsThatOfTheExtension) {
 
   // offset + [c s; -s c] * scale * uv, for uv = (0, 0), (1, 0) and (0, 1).
   const float c = std::cos(0.3f), s = std::sin(0.3f);
-  const auto uv_at = [&](float x, float y) { return vertex_at(scene, {x, y, 0})->uv; };
-  EXPECT_TRUE(uv_at(0, 1).isApprox(Eigen::Vector2f(0.5f, -0.25f), 1e-5f));
-  EXPECT_TRUE(uv_at(1, 1).isApprox(Eigen::Vector2f(0.5f + 2 * c, -0.25f - 2 * s), 1e-5f));
-  EXPECT_TRUE(uv_at(0, 0).isApprox(Eigen::Vector2f(0.5f + 3 * s, -0.25f + 3 * c), 1e-5f));
+  const UvTransform& texture_from_uv =
+      scene.materials.at(0).texture(TextureRole::base_colour).texture_from_uv;
+  const auto place = [&](float u, float v) -> Eigen::Vector2f {
+    return texture_from_uv * Eigen::Vector3f(u, v, 1);
+  };
+  EXPECT_TRUE(place(0, 0).isApprox(Eigen::Vector2f(0.5f, -0.25f), 1e-5f));
+  EXPECT_TRUE(place(1, 0).isApprox(Eigen::Vector2f(0.5f + 2 * c, -0.25f - 2 * s), 1e-5f));
+  EXPECT_TRUE(place(0, 1).isApprox(Eigen::Vector2f(0.5f + 3 * s, -0.25f + 3 * c), 1e-5f));
 }
 
 TEST(ImportGltf, AnimationMovesAndTurnsItsNode) {
@@ -280,7 +305,25 @@ TEST(ImportObj, TextureIsFoundInAnotherCaseAndFolder) {
 
   EXPECT_THAT(result.warnings, IsEmpty());
   ASSERT_EQ(result.scene.textures.size(), 1u);
-  EXPECT_EQ(result.scene.materials.at(0).base_colour_texture, 0);
+  EXPECT_EQ(result.scene.materials.at(0).texture(TextureRole::base_colour).image, 0);
+}
+
+TEST(ImportObj, APictureOfHolesBecomesTheAlphaOfTheBaseColour) {
+  const Scene scene = obj_with_material("Kd 1 1 1\nmap_d Maps/Paint.png\n").scene;
+
+  const Material& material = scene.materials.at(0);
+  EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
+  const int image = material.texture(TextureRole::base_colour).image;
+  ASSERT_GE(image, 0);
+  EXPECT_EQ(scene.textures.at(image).at(0, 0), (Rgba8{255, 255, 255, 255}));
+  EXPECT_EQ(scene.textures.at(image).at(1, 0), (Rgba8{255, 255, 255, 128}));
+}
+
+TEST(ImportObj, ABumpMapIsANormalMap) {
+  const Scene scene = obj_with_material("Kd 1 1 1\nmap_Bump Maps/Paint.png\n").scene;
+
+  EXPECT_GE(scene.materials.at(0).texture(TextureRole::normal).image, 0);
+  for (const Vertex& vertex : scene.vertices) EXPECT_NEAR(vertex.tangent_in_node.norm(), 1, 1e-5);
 }
 
 TEST(ImportObj, DiffuseColourTintsTheTextureUnlessItIsBlack) {
@@ -297,7 +340,7 @@ TEST(ImportObj, MissingTextureIsAWarningAndTheColourRemains) {
   const ImportResult result = obj_with_material("Kd 1 0 0\nmap_Kd missing.png\n");
 
   EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("missing.png")));
-  EXPECT_EQ(result.scene.materials.at(0).base_colour_texture, -1);
+  EXPECT_EQ(result.scene.materials.at(0).texture(TextureRole::base_colour).image, -1);
   EXPECT_EQ(result.scene.materials.at(0).base_colour, Eigen::Vector4f(1, 0, 0, 1));
 }
 

@@ -163,7 +163,7 @@ def make(file):
     boats(document, baked)
     places = near_scene(document, baked)
     metal = document.material(
-        "metal", (0.78, 0.78, 0.78, 1), metallic=1, roughness=0.30, emissive=(0.012, 0.006, 0.002)
+        "metal", (0.95, 0.95, 0.95, 1), metallic=1, roughness=0.26, emissive=(0.050, 0.026, 0.009)
     )
     enamel = document.material("enamel", metallic=0, roughness=0.28)
     ice = document.material(

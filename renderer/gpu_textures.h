@@ -1,0 +1,36 @@
+// A scene's pictures on the GPU, each in the coding that its use asks for (colours are sRGB, all
+// else is linear), and how they are sampled. Bound to the render thread.
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "renderer/canvas.h"
+#include "renderer/scene.h"
+
+namespace vindu {
+
+/// Texture units of the scene's programs: one for each TextureRole, then the shadow map.
+constexpr GLuint kShadowUnit = kTextureRoles;
+
+class GpuTextures {
+ public:
+  /// Uploads what the scene's materials use, with mipmaps.
+  GpuTextures(const Scene& scene, const Look& look);
+
+  /// To the unit of its role.
+  void bind(const TextureUse& use, TextureRole role) const;
+
+ private:
+  void upload(const Image& image, int index, bool srgb);
+  void make_sampler(Wrap u, Wrap v);
+
+  Look look_;
+  std::map<std::pair<int, bool>, gl::Texture> textures_;  // by image, and whether it is sRGB
+  std::map<std::pair<Wrap, Wrap>, gl::Sampler> samplers_;
+};
+
+/// Pictures are sampled by their own parameters again.
+void unbind_samplers();
+
+}  // namespace vindu
