@@ -19,6 +19,7 @@
 #include <memory>
 #include <vector>
 
+#include "bench/quantile.h"
 #include "cluster/cdr.h"
 #include "cluster/dds.h"
 
@@ -199,11 +200,6 @@ struct Latencies {
     }
   }
 };
-
-double quantile(std::vector<double> values, double share) {
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 void pose_fan_out(benchmark::State& state) {
   const auto receivers = static_cast<int>(state.range(0));
