@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "bench/frame_lock/launch.h"
 #include "bench/frame_lock/plot.h"
 #include "bench/frame_lock/run.h"
 #include "bench/quantile.h"
@@ -20,10 +21,11 @@ namespace {
 struct Options {
   std::vector<int> tiles = {28};
   std::vector<double> draw_ms = {8, 12};
-  int rounds = 3;  // of each lock in turn, so that the machine's moods meet both
+  int rounds = 2;  // of each lock in turn, so that the machine's moods meet both
   RunLength length;
   std::uint64_t seed = 1;
   std::string plot;
+  bool launch = true;
 };
 
 LockPlan plan_of(const Options& options, int tiles) {
@@ -79,6 +81,12 @@ std::string machine() {
   return fmt::format("{} cores, load {:.1f} before", std::thread::hardware_concurrency(), load);
 }
 
+void print_launch() {
+  const auto took_s = launch_s(VINDU_PROGRAM);
+  fmt::print("vindu launch --headless --scale 0.1, 28 tiles: the first whole frame {}\n",
+             took_s ? fmt::format("after {:.1f} s", *took_s) : "did not come within a minute");
+}
+
 /// Whether every swap was right.
 bool run(const Options& options) {
   const std::string words = fmt::format(
@@ -105,6 +113,7 @@ bool run(const Options& options) {
     wrong += bus.wrong + udp.wrong;
   }
   if (!options.plot.empty()) write_png(lock_plot(points, words), options.plot);
+  if (options.launch) print_launch();
   if (wrong > 0) fmt::print("WRONG: {} swaps out of order or before all tiles were ready\n", wrong);
   return wrong == 0;
 }
@@ -123,12 +132,13 @@ int main_of(int argc, char** argv) {
       ->delimiter(',')
       ->expected(1, 2)
       ->check(CLI::Range(0.0, 1000.0));
-  app.add_option("--rounds", options.rounds, "Runs of each lock in turn (default: 3)")
+  app.add_option("--rounds", options.rounds, "Runs of each lock in turn (default: 2)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--frames", options.length.frames, "That count in each run (default: 120)")
       ->check(CLI::Range(1, 10000));
   app.add_option("--seed", options.seed, "Of the drawings' lengths");
   app.add_option("--plot", options.plot, "Writes the figures as a picture")->type_name("PNG");
+  app.add_flag("!--no-launch", options.launch, "Leaves out vindu launch");
   CLI::App* const as_tile = app.add_subcommand("tile")->group("");
   as_tile->add_option("kind", kind);
   as_tile->add_option("tile", tile);

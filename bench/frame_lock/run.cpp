@@ -1,15 +1,13 @@
 #include "bench/frame_lock/run.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <cstring>
 #include <ctime>
 
+#include "bench/frame_lock/process.h"
 #include "core/error.h"
 
 namespace vindu {
@@ -22,43 +20,33 @@ double cpu_s(clockid_t clock) {
              : 0;
 }
 
+/// This program, as a tile.
+std::vector<std::string> words_of_tile(const LockKind& kind, int tile, int sheet_file) {
+  return {"/proc/self/exe", "tile", kind.name, std::to_string(tile), std::to_string(sheet_file)};
+}
+
 /// Tile processes; killed at the end of its scope.
 class TileProcesses {
  public:
   TileProcesses(const LockKind& kind, const SharedSheet& sheet) {
     for (int tile = 0; tile < sheet->plan.tiles; ++tile)
-      start(words_of_tile(kind, tile, sheet.file()));
+      tiles_.emplace_back(words_of_tile(kind, tile, sheet.file()));
   }
   ~TileProcesses() {
-    for (const pid_t child : children_) kill(child, SIGKILL);
-    for (const pid_t child : children_) waitpid(child, nullptr, 0);
+    for (const Process& tile : tiles_) tile.send(SIGKILL);
   }
   TileProcesses(const TileProcesses&) = delete;
   TileProcesses& operator=(const TileProcesses&) = delete;
 
   double used_cpu_s() const {
     double sum_s = 0;
-    for (const pid_t child : children_)
-      if (clockid_t clock{}; clock_getcpuclockid(child, &clock) == 0) sum_s += cpu_s(clock);
+    for (const Process& tile : tiles_)
+      if (clockid_t clock{}; clock_getcpuclockid(tile.id(), &clock) == 0) sum_s += cpu_s(clock);
     return sum_s;
   }
 
  private:
-  void start(std::vector<std::string> words) {
-    words.insert(words.begin(), "frame_lock_bench");
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    pid_t child = 0;
-    const int failed =
-        posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, argv.data(), environ);
-    if (failed != 0)
-      throw Error(
-          {"a tile's process does not start", std::strerror(failed), "ask for fewer tiles"});
-    children_.push_back(child);
-  }
-
-  std::vector<pid_t> children_;
+  std::vector<Process> tiles_;
 };
 
 /// What the master is asked for while it runs: has everybody come, and is it enough?
@@ -153,10 +141,6 @@ LockResult run_lock(const LockKind& kind, const LockPlan& plan, const RunLength&
   result.evictions = sheet->evictions;
   result.wrong = sheet->wrong_swaps + result.figures.early;
   return result;
-}
-
-std::vector<std::string> words_of_tile(const LockKind& kind, int tile, int sheet_file) {
-  return {"tile", kind.name, std::to_string(tile), std::to_string(sheet_file)};
 }
 
 void play_tile(const std::string& kind, int tile, int sheet_file) {

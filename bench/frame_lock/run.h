@@ -30,9 +30,6 @@ struct LockResult {
 /// Throws Error where the tiles do not come together within half a minute.
 LockResult run_lock(const LockKind& kind, const LockPlan& plan, const RunLength& length);
 
-/// How the program is to call itself for a tile; the words after its name.
-std::vector<std::string> words_of_tile(const LockKind& kind, int tile, int sheet_file);
-
 /// In the process of a tile. Never returns; ends when its master does.
 void play_tile(const std::string& kind, int tile, int sheet_file);
 
