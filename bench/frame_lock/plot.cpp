@@ -14,7 +14,7 @@ namespace {
 constexpr int kMargin_px = 36, kTop_px = 150, kBottom_px = 64;
 constexpr int kWidth_px = 520, kHeight_px = 400, kGap_px = 100;
 constexpr double kMostTiles = 64;
-constexpr double kLeast_us = 5, kMost_us = 5000;
+constexpr double kLeast_us = 1, kMost_us = 1e5;
 
 /// One panel: tiles to the right, us upwards, both by their logarithms.
 class Panel {
@@ -22,8 +22,7 @@ class Panel {
   Panel(Diagram& diagram, const Vec2& corner_px, const std::string& title)
       : diagram_(diagram), corner_px_(corner_px) {
     diagram_.text(corner_px - Vec2(0, 38), title, {18, kInk, true});
-    for (const double us : {5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0})
-      grid(at(1, us), at(kMostTiles, us), us);
+    for (double us = kLeast_us; us <= kMost_us; us *= 10) grid(at(1, us), at(kMostTiles, us), us);
     for (int tiles = 1; tiles <= kMostTiles; tiles *= 2) {
       diagram_.line(at(tiles, kLeast_us), at(tiles, kMost_us), 1, kFaint);
       diagram_.text(at(tiles, kLeast_us) + Vec2(0, 8), std::to_string(tiles), {15, kDim},
@@ -51,7 +50,7 @@ class Panel {
   }
   void grid(const Vec2& from_px, const Vec2& to_px, double us) {
     diagram_.line(from_px, to_px, 1, kFaint);
-    diagram_.text(from_px - Vec2(10, 9), fmt::format("{:g}", us), {15, kDim},
+    diagram_.text(from_px - Vec2(10, 9), fmt::format("{:.0f}", us), {15, kDim},
                   Diagram::Align::right);
   }
 
