@@ -20,6 +20,7 @@
 #include <memory>
 #include <vector>
 
+#include "bench/quantile.h"
 #include "cluster/cdr.h"
 #include "cluster/dds.h"
 #include "cluster/keys/authority.h"
@@ -201,11 +202,6 @@ struct Latencies {
     }
   }
 };
-
-double quantile(std::vector<double> values, double share) {
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 /// A key that may write and read poses.
 Credentials new_credentials() {
