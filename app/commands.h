@@ -21,6 +21,7 @@ void add_record(CLI::App& parent, Action& chosen);
 void add_calibrate(CLI::App& parent, Action& chosen);
 void add_replay(CLI::App& parent, Action& chosen);
 void add_track(CLI::App& parent, Action& chosen);
+void add_pack(CLI::App& parent, Action& chosen);
 void add_plan(CLI::App& parent, Action& chosen);
 void add_measure(CLI::App& parent, Action& chosen);
 void add_launch(CLI::App& parent, Action& chosen);

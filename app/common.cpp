@@ -9,10 +9,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/packer.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "renderer/chunks.h"
-#include "renderer/import.h"
 #include "renderer/resources.h"
 #include "renderer/surface.h"
 #include "renderer/view.h"
@@ -134,10 +133,9 @@ TileCorners content_corners(const Tile& tile, const Window& window) {
 }
 
 Scene read_model(const std::string& file) {
-  ImportResult imported = import_scene(file);
+  ImportResult imported = packed_scene(file).imported;
   for (const std::string& warning : imported.warnings) log_warning(imported.scene.name, warning);
   log_debug(imported.scene.name, std::to_string(imported.scene.triangle_count()) + " triangles");
-  cut_into_chunks(imported.scene);
   return std::move(imported.scene);
 }
 

@@ -57,7 +57,7 @@ struct LoadedScene {
   Navigation navigation;
 };
 
-/// Imports a model, cut so that what no tile sees costs nothing; warnings are logged.
+/// A model, packed; warnings are logged.
 Scene read_model(const std::string& file);
 
 /// Reads a model and places it before the wall; warnings and the placement are logged. An empty

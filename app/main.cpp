@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   vindu::app::add_replay(app, chosen);
   vindu::app::add_track(app, chosen);
   vindu::app::add_plan(app, chosen);
+  vindu::app::add_pack(app, chosen);
   vindu::app::add_measure(app, chosen);
   vindu::app::add_launch(app, chosen);
   vindu::app::add_status(app, chosen);

@@ -4,6 +4,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
@@ -93,9 +94,25 @@ void correct_primitive_types(const aiScene& source) {
   }
 }
 
+/// Notes which files a loader opens.
+class NotingFiles final : public Assimp::DefaultIOSystem {
+ public:
+  explicit NotingFiles(std::vector<std::string>& opened) : opened_(opened) {}
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    Assimp::IOStream* const stream = DefaultIOSystem::Open(file, mode);
+    if (stream && std::ranges::find(opened_, file) == opened_.end()) opened_.emplace_back(file);
+    return stream;
+  }
+
+ private:
+  std::vector<std::string>& opened_;
+};
+
 /// Owned by `importer`.
 const aiScene& read_with_assimp(Assimp::Importer& importer, const std::string& file,
-                                const ImportLimits& limits) {
+                                const ImportLimits& limits, std::vector<std::string>& opened) {
+  importer.SetIOHandler(new NotingFiles(opened));  // which it deletes
   const MemoryBudget budget(reading_budget_bytes(file));
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* source = importer.ReadFile(file, 0);
@@ -212,6 +229,7 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
   scene.colours = style == MaterialStyle::gltf ? ColourCoding::linear : ColourCoding::srgb;
   scene.materials = materials.take();
   scene.textures = textures.take();
+  result.files.insert(result.files.end(), textures.files().begin(), textures.files().end());
   warn_of(losses, result.warnings);
   if (scene.indices.empty() && losses.broken_triangles > 0)
     throw_broken(file, "all its triangles have vertices that are not finite or not there");
@@ -229,8 +247,9 @@ void check_drawable(const Scene& scene, const std::string& file) {
   if (!(bounds.diagonal().norm() > 0)) throw_broken(file, "all its points are in one place");
 }
 
-ImportResult converted(const aiScene& source, const std::string& file, const ImportLimits& limits) {
-  ImportResult result;
+ImportResult converted(const aiScene& source, const std::string& file, const ImportLimits& limits,
+                       std::vector<std::string> opened) {
+  ImportResult result{.scene = {}, .warnings = {}, .files = std::move(opened)};
   Scene& scene = result.scene;
   scene.name = std::filesystem::path(file).stem().string();
   const std::vector<int> mesh_of_source = import_meshes(source, file, limits, result);
@@ -250,7 +269,9 @@ ImportResult import_scene(const std::string& file, const ImportLimits& limits) {
   check_model_file(file, limits.file_bytes);
   try {
     Assimp::Importer importer;
-    return converted(read_with_assimp(importer, file, limits), file, limits);
+    std::vector<std::string> opened = {file};
+    const aiScene& source = read_with_assimp(importer, file, limits, opened);
+    return converted(source, file, limits, std::move(opened));
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {

@@ -23,6 +23,7 @@ struct ImportResult {
   Scene scene;
   std::vector<std::string>
       warnings;  ///< what was lost: a texture that is not there, lines and points, ...
+  std::vector<std::string> files;  ///< that were read: the model first, then those beside it
 };
 
 /// Throws Error: missing, a folder, empty, too large, broken, not a model, without triangles, or in

@@ -231,6 +231,7 @@ std::optional<Image> TextureImporter::from_file(const std::string& name) {
     warnings_.push_back("texture " + name + " is not there; put it beside the model");
     return std::nullopt;
   }
+  files_.push_back(file->string());
   const std::optional<std::vector<std::uint8_t>> bytes = bytes_of(*file);
   if (!bytes) {
     warnings_.push_back("texture " + file->string() + " cannot be read");

@@ -39,6 +39,8 @@ class TextureImporter {
   int index_with_channel(int base, std::size_t channel, const std::string& name);
 
   std::vector<Image> take() { return std::move(textures_); }
+  /// That were read, whether they were pictures or not.
+  const std::vector<std::string>& files() const { return files_; }
 
  private:
   int keep(const std::string& key, Image image);
@@ -53,6 +55,7 @@ class TextureImporter {
   std::vector<std::string>& warnings_;
   std::map<std::string, int> index_of_name_;  // of derived pictures with what was done to them
   std::vector<Image> textures_;
+  std::vector<std::string> files_;
 };
 
 }  // namespace vindu

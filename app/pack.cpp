@@ -1,0 +1,118 @@
+// vindu pack: a model as a packed scene, which loads at once: into the cache, where every other
+// command finds it, or into a file.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/packer.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/sha256.h"
+#include "renderer/scene_cache.h"
+
+namespace vindu::app {
+namespace {
+
+struct PackCommand {
+  std::vector<std::string> models;
+  std::string out;
+  std::optional<double> memory_mib;
+  std::optional<double> seconds;
+  bool here = false;
+};
+
+void limit_memory(double memory_mib) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const auto bytes = static_cast<rlim_t>(memory_mib * 1048576);
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_AS, &limit);
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+#else
+  static_cast<void>(memory_mib);
+#endif
+}
+
+PackLimits limits_of(const PackCommand& command, const std::string& model) {
+  PackLimits limits = limits_for(model);
+  if (command.memory_mib)
+    limits.memory_bytes = static_cast<std::uintmax_t>(*command.memory_mib * 1048576);
+  if (command.seconds) limits.time = std::chrono::seconds(static_cast<long long>(*command.seconds));
+  return limits;
+}
+
+/// Returns the file.
+std::string pack_one(const PackCommand& command, const std::string& model) {
+  if (command.here) {
+    if (command.memory_mib) limit_memory(*command.memory_mib);
+    write_scene_file(import_packed(model), command.out);
+    return command.out;
+  }
+  if (!command.out.empty()) {
+    pack_apart(model, command.out, limits_of(command, model));
+    return command.out;
+  }
+  packed_scene(model);
+  const auto sha256 = sha256_of_file(model);
+  return SceneCache(SceneCache::usual_folder()).entry_of(sha256.value_or(""));
+}
+
+void say(const std::string& model, const std::string& file, Duration took) {
+  const PackedScene packed = read_scene_file(file);
+  const Scene& scene = packed.imported.scene;
+  fmt::print("{}: {} triangles, {} textures, {} animations; {:.1f} MiB in {:.2f} s: {}\n", model,
+             scene.triangle_count(), scene.textures.size(), scene.animations.size(),
+             static_cast<double>(std::filesystem::file_size(file)) / 1048576, seconds(took), file);
+  for (const std::string& warning : packed.imported.warnings) fmt::print("  {}\n", warning);
+}
+
+int pack(const PackCommand& command) {
+  if (!command.out.empty() && command.models.size() > 1)
+    throw Error({"several models cannot go into one file", "--out", "pack them one by one"});
+  if (command.here && command.out.empty())
+    throw Error({"needs a file to write", "--here", "add --out FILE"});
+  const MonotonicClock clock;
+  int failed = 0;
+  for (const std::string& model : command.models) try {
+      const Time start = clock.now();
+      const std::string file = pack_one(command, model);
+      if (!command.here) say(model, file, clock.now() - start);
+    } catch (const Error& error) {
+      if (command.models.size() == 1) throw;
+      std::fprintf(stderr, "vindu: %s\n", error.what());
+      ++failed;
+    }
+  return failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_pack(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<PackCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "pack", "Makes models ready to be loaded at once; all commands do so by themselves");
+  app->add_option("MODEL", command->models, "Any models that Assimp reads")->required();
+  app->add_option("--out", command->out,
+                  "The packed scene (.vscene), which loads like a model anywhere (default: the\n"
+                  "cache, where other commands find it)")
+      ->type_name("FILE");
+  app->add_option("--memory-mib", command->memory_mib,
+                  "What reading it may take (default: 4096, more for files above 136 MiB)")
+      ->check(between(16, 1e7));
+  app->add_option("--seconds", command->seconds,
+                  "And how long (default: 60, and one for each MiB of the file)")
+      ->check(between(1, 1e6));
+  app->add_flag("--here", command->here, "In this process: a broken file may end it");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu pack model.glb\n"
+      "  vindu pack building.ifc --seconds 3600 --out building.vscene\n");
+  app->callback([command, &chosen] { chosen = [command] { return pack(*command); }; });
+}
+
+}  // namespace vindu::app
