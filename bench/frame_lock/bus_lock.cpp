@@ -68,7 +68,7 @@ void bus_tile(Sheet& sheet, int tile) {
         sheet.swapped(tile, drawn, swap);
         if (drawn <= swapped) sheet.wrong();
         swapped = drawn;
-        wall.showed(swap);
+        wall.showed(now, swap);
         break;
       }
       case WallTile::Next::draw: {

@@ -56,9 +56,9 @@ TEST(Failures, AreFoldedOverEqualHosts) {
 }
 
 TEST(CommandLines, NameHostsFoldedAndAskNothing) {
-  const auto words = clush_words({"tile-0-0", "tile-1-0"}, "echo @done");
-  EXPECT_THAT(words, ::testing::Contains("tile-[0-1]-0"));
-  EXPECT_THAT(words, ::testing::Contains(HasSubstr("BatchMode=yes")));
+  const auto asked = clush_words({"tile-0-0", "tile-1-0"}, "echo @done");
+  EXPECT_THAT(asked, ::testing::Contains("tile-[0-1]-0"));
+  EXPECT_THAT(asked, ::testing::Contains(HasSubstr("BatchMode=yes")));
   const std::vector<std::string> words = rsync_words({"tile-0-0", {"/tmp/a b", "/tmp/own"}});
   EXPECT_THAT(std::vector(words.end() - 4, words.end()),
               ElementsAre("--", "/tmp/a b/", "/tmp/own/", "tile-0-0:.vindu/"));

@@ -32,7 +32,7 @@ PackedScene small_scene() {
   material.texture(TextureRole::normal) = {.image = 0, .uv_set = 1, .wrap_v = Wrap::clamp};
   material.double_sided = true;
   scene.materials = {material};
-  scene.nodes = {{.name = "root", .meshes = {0}}, {.name = "arm", .parent = 0}};
+  scene.nodes = {{.name = "root", .meshes = {0}}, {.name = "arm", .parent = 0, .meshes = {}}};
   scene.animations = {
       {"wave",
        2.5,
