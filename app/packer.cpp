@@ -151,10 +151,13 @@ PackedScene packed_scene(const std::string& model) {
   const fs::path folder = SceneCache::usual_folder();
   if (!sha256 || folder.empty()) return import_packed(model);
   try {
-    return SceneCache(folder).find_or_pack(model, *sha256, [&](const std::string& file) {
-      log_info(fs::path(model).filename().string(), "is packed, once");
-      pack_apart(model, file, limits_for(model));
-    });
+    PackedScene packed =
+        SceneCache(folder).find_or_pack(model, *sha256, [&](const std::string& file) {
+          log_info(fs::path(model).filename().string(), "is packed, once");
+          pack_apart(model, file, limits_for(model));
+        });
+    packed.imported.scene.name = fs::path(model).stem().string();  // a copy has its own name
+    return packed;
   } catch (const fs::filesystem_error& error) {
     log_warning(fs::path(model).filename().string(),
                 std::string("cannot be kept packed: ") + error.what());

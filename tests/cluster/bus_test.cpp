@@ -234,8 +234,11 @@ TEST_P(BusTest, KeepsWallsOfDifferentNamesApart) {
 
 TEST_P(BusTest, TellsBothSidesOfAnotherVersionAndDeliversNothing) {
   const Participant old{.role = Role::master, .name = "master", .host = "a", .version = "0.1"};
-  const Participant newer{
-      .role = Role::tile, .name = "tile-0-0", .host = "b", .version = "0.2", .protocol = 2};
+  const Participant newer{.role = Role::tile,
+                          .name = "tile-0-0",
+                          .host = "b",
+                          .version = "0.2",
+                          .protocol = kProtocolVersion + 1};
   const auto master = join_as(old, {Topic::scene}, {Topic::presence});
   const auto tile = join_as(newer, {}, {Topic::scene, Topic::presence});
   master->publish(SceneMessage{.revision = 1, .path = "a.ply"});

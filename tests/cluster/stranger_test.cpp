@@ -33,8 +33,9 @@ class Stranger : public ::testing::Test {
     dds_domainid_t id = 200;
     domain_ = {dds_create_domain(id, dds_configuration(settings_, "").c_str()), "a domain"};
     participant_ = {dds_create_participant(id, nullptr, nullptr), "a participant"};
-    const dds_entity_t topic =
-        dds_create_topic(participant_.get(), &vindu_wire_Frame_desc, "v1/frame", defaults, nullptr);
+    const std::string name = "v" + std::to_string(kProtocolVersion) + "/frame";
+    const dds_entity_t topic = dds_create_topic(participant_.get(), &vindu_wire_Frame_desc,
+                                                name.c_str(), defaults, nullptr);
     writer_ = dds_create_writer(participant_.get(), topic, defaults, nullptr);
   }
 
