@@ -188,15 +188,15 @@ Image draw_page(const OverlayPage& page, const OverlayLayout& layout) {
           layout.pad_px <=
       right - layout.pad_px)
     text_to_right(image, right, layout.pad_px, page.aside, styles.aside);
-  if (layout.below_y_px > 0)
+  if (layout.below_y_px > 0) {
     draw_text(image, layout.pad_px, layout.below_y_px, page.below, styles.faded);
+    if (page.timeline)  // above the bars, which are drawn anew without it
+      text_to_right(image, right, layout.below_y_px, fmt::format("{:g} ms", page.timeline->full_ms),
+                    styles.faded);
+  }
   if (layout.plot_height_px > 0) {
     draw_timeline(*page.timeline, layout, image);
-    if (layout.legend_y_px > 0) {
-      draw_legend(*page.timeline, layout, image);
-      draw_text(image, layout.pad_px + layout.pad_px / 2, layout.plot_y_px + 1,
-                fmt::format("{:g} ms", page.timeline->full_ms), styles.faded);
-    }
+    if (layout.legend_y_px > 0) draw_legend(*page.timeline, layout, image);
   }
   int y = layout.rows_y_px;
   for (const std::size_t row : layout.rows) {

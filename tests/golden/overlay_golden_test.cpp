@@ -26,7 +26,7 @@ FrameParts frame(std::size_t number) {
 OverlayPage tile_page() {
   OverlayPage page{.title = "tile-3-0",
                    .aside = "59.9 fps",
-                   .below = "tile-3-0, NVIDIA H100",
+                   .below = "tile-3-0, llvmpipe",
                    .timeline = FrameTimeline{.full_ms = 50},
                    .rows = {{"", {"p50", "p99", "max"}},
                             {"motion to photon, ms", {"26.1", "30.4", "34.9"}},
