@@ -132,6 +132,11 @@ TileCorners content_corners(const Tile& tile, const Window& window) {
   return part_of_tile(tile, window.content_on_screen_px(), window.size());
 }
 
+std::string model_file(const std::string& path) {
+  constexpr std::string_view kAsset = "asset:";
+  return path.starts_with(kAsset) ? find_asset(path.substr(kAsset.size())) : path;
+}
+
 Scene read_model(const std::string& file) {
   ImportResult imported = packed_scene(file).imported;
   for (const std::string& warning : imported.warnings) log_warning(imported.scene.name, warning);

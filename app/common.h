@@ -57,6 +57,9 @@ struct LoadedScene {
   Navigation navigation;
 };
 
+/// A scene's path as tiles are told it, on this host: "asset:..." is part of every installation.
+std::string model_file(const std::string& path);
+
 /// A model, packed; warnings are logged.
 Scene read_model(const std::string& file);
 

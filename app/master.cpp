@@ -20,6 +20,7 @@
 #include "cluster/wall_master.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/sha256.h"
 #include "renderer/resources.h"
 
 namespace vindu::app {
@@ -56,11 +57,17 @@ std::string path_for_tiles(const std::string& model, const Site& site) {
 /// Reads a model beside the frames that go on, to know that it can be read and where it stands.
 class Placing {
  public:
+  struct Placed {
+    Navigation navigation;
+    std::string sha256;  // of the model
+  };
+
   void start(const std::string& model, std::optional<Placement> place, const Site& site) {
     model_ = model;
     place_ = place;
     result_ = std::async(std::launch::async, [model, place, &site] {
-      return load_scene(model, place, site).navigation;
+      const std::string file = model_file(path_for_tiles(model, site));
+      return Placed{load_scene(model, place, site).navigation, sha256_of_file(file).value_or("")};
     });
   }
   bool running() const { return result_.valid(); }
@@ -70,12 +77,12 @@ class Placing {
   const std::string& model() const { return model_; }
   std::optional<Placement> place() const { return place_; }
   /// Throws what reading threw.
-  Navigation take() { return result_.get(); }
+  Placed take() { return result_.get(); }
 
  private:
   std::string model_;
   std::optional<Placement> place_;
-  std::future<Navigation> result_;
+  std::future<Placed> result_;
 };
 
 class MasterRun {
@@ -210,10 +217,11 @@ class MasterRun {
   void follow_scenes() {
     if (!placing_.done()) return;
     try {
-      const Navigation navigation = placing_.take();
+      const Placing::Placed placed = placing_.take();
       const Placement place = placing_.place().value_or(Placement::fit);
-      const std::uint64_t revision = wall_.show(path_for_tiles(placing_.model(), site_), "", place);
-      navigations_[revision] = navigation;
+      const std::uint64_t revision =
+          wall_.show(path_for_tiles(placing_.model(), site_), placed.sha256, place);
+      navigations_[revision] = placed.navigation;
       reply(asked_scene_, true, "");
     } catch (const Error& error) {
       if (asked_scene_.request == 0) throw;

@@ -17,6 +17,7 @@
 #include "cluster/wall_tile.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/sha256.h"
 #include "renderer/frame_counter.h"
 #include "renderer/gpu_timer.h"
 #include "renderer/notice.h"
@@ -58,18 +59,18 @@ Wall part_of(const Wall& wall, const std::vector<std::string>& names) {
   return part;
 }
 
-std::string model_file(const std::string& path) {
-  constexpr std::string_view kAsset = "asset:";
-  return path.starts_with(kAsset) ? find_asset(path.substr(kAsset.size())) : path;
-}
-
 /// A scene that is read beside the frames that go on.
 class Loading {
  public:
   void start(const SceneMessage& scene) {
     revision_ = scene.revision;
-    result_ = std::async(std::launch::async,
-                         [path = scene.path] { return read_model(model_file(path)); });
+    result_ = std::async(std::launch::async, [scene] {
+      const std::string file = model_file(scene.path);
+      if (!scene.sha256.empty() && sha256_of_file(file).value_or(scene.sha256) != scene.sha256)
+        throw Error({"is not what the master has there", file,
+                     "bring its file to all hosts: vindu deploy"});
+      return read_model(file);
+    });
   }
   bool done() const {
     return result_.valid() &&

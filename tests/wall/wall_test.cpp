@@ -7,6 +7,8 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <set>
 #include <thread>
 
@@ -256,6 +258,44 @@ TEST_F(WallTest, TellsSystemdThatATileDrawsAndThatItStillDoes) {
   }
   close(listener);
   EXPECT_THAT(heard, ::testing::ElementsAre("READY=1", "WATCHDOG=1", "WATCHDOG=1"));
+}
+
+TEST_F(WallTest, ShowsAnotherModelAndKeepsItWhereTheNextOneCannotBeRead) {
+  Child tile = start_tile("tile-0-0"), other = start_tile("tile-1-1");
+  Child master = start_master();
+  await_swaps("tile-0-0.csv", 20);
+  const auto ask = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--wall", wall_file_});
+    return vindu(words);
+  };
+  const std::string model = path("other.obj");
+  std::filesystem::copy_file(small_model(), model);
+  EXPECT_EQ(ask({"show", model}).exit_code, 0);
+  const ProcessResult broken = ask({"show", write("broken.obj", "v 1\n")});
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_THAT(broken.err, HasSubstr("broken.obj"));
+  EXPECT_EQ(ask({"goto", "0,0,1"}).exit_code, 0);
+  EXPECT_EQ(ask({"mode", "loop"}).exit_code, 0);
+  await_swaps("tile-0-0.csv", 20);
+  await_swaps("tile-1-1.csv", 20);
+  EXPECT_EQ(ask({"stop"}).exit_code, 0);
+  EXPECT_EQ(master.end(), 0);
+  expect_right({"tile-0-0.csv", "tile-1-1.csv"});
+}
+
+TEST_F(WallTest, SaysThatATileHasAnotherFileThanTheMaster) {
+  const std::string model = path("mine.obj");
+  std::filesystem::copy_file(small_model(), model);
+  Child master({VINDU_PROGRAM, "master", model, "--wall", wall_file_, "--mode", "loop"},
+               path("master.log"));
+  Child first = start_tile("tile-0-0");
+  await_log("tile-0-0: admitted");
+  std::ofstream(model, std::ios::app) << "# changed\n";
+  Child second = start_tile("tile-1-0");
+  const auto said = [&] { return bytes_of(path("tile-1-0.csv.log")); };
+  while (said().find("is not what the master has there") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_THAT(said(), HasSubstr("vindu deploy"));
 }
 
 TEST_F(WallTest, EndsWithAnErrorWhereTheMasterCannotReadItsFirstModel) {
