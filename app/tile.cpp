@@ -86,13 +86,20 @@ class Loading {
   std::future<Scene> result_;
 };
 
+/// On CPUs without shadows: each process would draw the whole scene anew for its own map.
+Look tile_look() {
+  Look look = live_look();
+  if (draws_in_software()) look.shadows = Shadows::none;
+  return look;
+}
+
 /// The pictures of this process' tiles, and what they show when there is no scene.
 class TilePainter {
  public:
   TilePainter(const Site& site, const Wall& part, double scale, Surface& surface)
       : part_(part),
         surface_(surface),
-        renderer_(part, scale, live_look()),
+        renderer_(part, scale, tile_look()),
         statistics_(site, part) {}
 
   WallRenderer& renderer() { return renderer_; }
