@@ -90,6 +90,12 @@ class Shape(Planted):
         self.assertEqual(list(shape.breaches(self.root)),
                          ["core/a.cpp: 501 lines; at most 500: split it"])
 
+    def test_a_header_without_a_guard_is_found(self):
+        self.write("core/a.h", "// What it is for.\n")
+        self.write("core/b.h", "// What it is for.\n#pragma once\n")
+        self.assertEqual(list(shape.breaches(self.root)),
+                         ["core/a.h: no #pragma once: it cannot be included twice"])
+
     def test_functions_are_measured(self):
         lines = ["namespace a {", "", "int one() { return 1; }", "", "void four(int b,",
                  "          int c) {", "  b = c;", "}", "", "struct D {", "  int e;", "};", "", "}"]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The shape of the sources: no line over 100 columns, no file over 500 lines (both fail), and the
-sizes of files and functions, printed and not judged.
+"""The shape of the sources: no line over 100 columns, no file over 500 lines, no header without
+`#pragma once` (all fail), and the sizes of files and functions, printed and not judged.
 
 Usage: shape.py ROOT. Functions are found by the format that clang-format gives them: they open with
 a line at column 0 that ends in "{" and close with a "}" at column 0; those inside a class body are
@@ -44,6 +44,8 @@ def breaches(root):
         lines = (Path(root) / path).read_text(encoding="utf-8").splitlines()
         if len(lines) > LINES:
             yield f"{path}: {len(lines)} lines; at most {LINES}: split it"
+        if path.suffix == ".h" and "#pragma once" not in lines:
+            yield f"{path}: no #pragma once: it cannot be included twice"
         for number, line in enumerate(lines, 1):
             if len(line) > COLUMNS:
                 yield f"{path}:{number}: {len(line)} columns; at most {COLUMNS}"
