@@ -60,10 +60,11 @@ struct DrawFigures {
   bool operator==(const DrawFigures&) const = default;
 };
 
-enum class TileState { loading, ready, evicted, failed };
+/// As a tile knows it; that it was evicted the master alone knows (ReportMessage::locked).
+enum class TileState { loading, ready, failed };
 
 constexpr std::string_view name_of(TileState state) {
-  constexpr std::string_view names[] = {"loading", "ready", "evicted", "failed"};
+  constexpr std::string_view names[] = {"loading", "ready", "failed"};
   return names[static_cast<int>(state)];
 }
 

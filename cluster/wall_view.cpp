@@ -13,6 +13,14 @@ namespace vindu {
 namespace {
 
 constexpr auto kBeats = std::chrono::seconds(2);
+constexpr const char* kEvicted = "evicted";
+
+/// A tile that says ready does not know that the others no longer wait for it; the master does.
+void mark_evicted(TileNow& tile) {
+  if (!tile.good() && tile.state != kEvicted) return;
+  const bool evicted = tile.report && tile.report->locked == 0 && tile.report->evictions > 0;
+  tile.state = evicted ? kEvicted : name_of(TileState::ready);
+}
 
 /// Tiles that differ in figures alone.
 struct Group {
@@ -132,6 +140,8 @@ std::string report_text(const WallNow& wall) {
 
 bool WallNow::good() const { return master && std::ranges::all_of(tiles, &TileNow::good); }
 
+bool TileNow::good() const { return state == name_of(TileState::ready); }
+
 WallView::WallView(const std::vector<std::string>& tiles, Participant self)
     : self_(std::move(self)) {
   for (const std::string& tile : tiles) now_.tiles.push_back({.name = tile});
@@ -155,6 +165,7 @@ void WallView::hear(const StatusMessage& status) {
   if (tile->last.incarnation != 0 && tile->last.incarnation != status.incarnation) ++tile->restarts;
   tile->last = status;
   tile->state = name_of(status.state);
+  mark_evicted(*tile);
 }
 
 void WallView::hear(const Presence& presence) {
@@ -191,6 +202,7 @@ void WallView::hear(const ReportMessage& report) {
   if (!tile) return;
   tile->report = report;
   tile->restarts = std::max(tile->restarts, static_cast<int>(report.restarts));
+  mark_evicted(*tile);
 }
 
 std::string table_of(const WallNow& wall) {

@@ -15,12 +15,12 @@ namespace vindu {
 /// A tile as it is now.
 struct TileNow {
   std::string name{};
-  std::string state = "missing";          ///< or silent, gone, or a TileState's name
+  std::string state = "missing";          ///< or silent, gone, evicted, or a TileState's name
   StatusMessage last{};                   ///< the newest that it said
   std::optional<ReportMessage> report{};  ///< the master's newest about it
   int restarts = 0;                       ///< as the master counted, or since this console listens
 
-  bool good() const { return state == name_of(TileState::ready); }
+  bool good() const;  ///< ready, and in the frame lock
 };
 
 struct WallNow {

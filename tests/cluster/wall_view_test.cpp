@@ -74,6 +74,18 @@ TEST_F(Views, ShowATileThatComesBackAsRestarted) {
   EXPECT_EQ(view_.now().tiles.back().restarts, 1);
 }
 
+TEST_F(Views, ShowATileAsEvictedFromTheMastersWordUntilItIsTakenInAgain) {
+  ReportMessage report{.tile = "tile-6-3", .epoch = 1, .locked = 0, .evictions = 1};
+  view_.hear(report);
+  say("tile-6-3");
+  EXPECT_THAT(table_of(view_.now()), ContainsRegex("tile-6-3 +evicted"));
+  EXPECT_FALSE(view_.now().good());
+
+  report.locked = 1;
+  view_.hear(report);
+  EXPECT_TRUE(view_.now().good());
+}
+
 TEST_F(Views, SayWhichTilesWereNeverHeardOf) {
   const WallView fresh({"tile-0-0", "tile-0-1"}, kSelf);
   EXPECT_EQ(table_of(fresh.now()),
