@@ -93,7 +93,7 @@ void add_handed_on(CLI::App& app, LaunchCommand& command) {
   hand_on(app, "--place", command.master_options, "Of the model; as of vindu master")
       ->check(CLI::IsMember({"fit", "life-size", "as-is"}));
   hand_on(app, "--mode", command.master_options,
-          "track: the eye is tracked; loop: it follows a path; touch: fingers move the scene")
+          "track: the eye is tracked; loop: it follows a path; touch: it follows a hand")
       ->check(CLI::IsMember({"track", "loop", "touch"}));
   hand_on(app, "--path", command.master_options, "Camera path of the mode loop")->type_name("FILE");
   hand_on(app, "--seconds", command.master_options, "Length (default: until Ctrl-C)")

@@ -13,6 +13,7 @@
 #include "app/eye_source.h"
 #include "app/remote_eye.h"
 #include "app/stop_signals.h"
+#include "app/touch_eye.h"
 #include "app/wall_console.h"
 #include "app/wall_figures.h"
 #include "cluster/console.h"
@@ -101,6 +102,7 @@ class MasterRun {
                       .host = host_name(),
                       .tiles = tile_names(site.wall),
                       .barrier = {.lock = site.cluster.lock}}),
+        eye_in_wall_(site.viewer.default_eye_in_wall),
         elsewhere_(command.tracker_elsewhere),
         overlays_((command.counter ? std::uint32_t{kFrameCounter} : 0) |
                   (command.overlay ? std::uint32_t{kStatistics} : 0)),
@@ -141,11 +143,16 @@ class MasterRun {
   static constexpr Topics kTells = {Topic::frame, Topic::scene, Topic::report, Topic::camera,
                                     Topic::answer};
   static constexpr Topics kJoins = {Topic::ready, Topic::tile_status, Topic::presence,
-                                    Topic::command, Topic::pose};
+                                    Topic::command, Topic::pose, Topic::event};
 
   void set_mode(const std::string& mode, const std::string& path_file) {
+    if (mode == "touch") {
+      touch_.start_from(eye_in_wall_);
+      eyes_ = &touch_;
+      return;
+    }
     if (mode != "loop" && mode != "track")
-      throw Error({"there is no mode \"" + mode + "\"", "mode", "choose track or loop"});
+      throw Error({"there is no mode \"" + mode + "\"", "mode", "choose track, touch or loop"});
     if (mode == "loop") {
       path_ = follow_path(
           read_camera_path(path_file.empty() ? find_asset("paths/sweep.toml") : path_file));
@@ -174,7 +181,9 @@ class MasterRun {
     }
     glide(now);
     const Time photon = now + figures_.to_light() + display_latency();
+    touch_.hear(now);
     const EyeNow eye = eyes_->at(now, photon);
+    eye_in_wall_ = eye.eye_in_wall;
     const FrameOrigin origin = origin_of(eye, now, clock_.now());
     const FrameState state = {.photon_time = photon,
                               .eye_in_wall = eye.eye_in_wall,
@@ -306,6 +315,8 @@ class MasterRun {
   std::unique_ptr<Bus> bus_;
   CommandDesk desk_{*bus_, "master"};
   WallMaster wall_;
+  Vec3 eye_in_wall_;
+  TouchEye touch_{*bus_, site_};
   std::unique_ptr<EyeSource> path_, tracked_;  // cameras are opened once, by the mode track
   EyeSource* eyes_ = nullptr;
   Placing placing_;
@@ -344,8 +355,9 @@ void add_master(CLI::App& parent, Action& chosen) {
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
   add_place(*app, command->place);
-  app->add_option("--mode", command->mode, "track: the eye is tracked; loop: it follows a path")
-      ->check(CLI::IsMember({"track", "loop"}));
+  app->add_option("--mode", command->mode, "track: the eye is tracked; touch: it follows a hand (vindu touch);\n"
+                  "loop: it follows a path")
+      ->check(CLI::IsMember({"track", "touch", "loop"}));
   app->add_option("--path", command->path_file, "Camera path of the mode loop")->type_name("FILE");
   app->add_option("--seconds", command->seconds, "Length (default: until it is stopped)")
       ->check(between(0.05, 1e8));

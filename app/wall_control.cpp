@@ -62,9 +62,10 @@ void add_show(CLI::App& parent, Action& chosen) {
 void add_mode(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<ControlCommand>();
   CLI::App* app = parent.add_subcommand("mode", "How the eye moves on a running wall");
-  app->add_option("MODE", command->argument, "track: the eye is tracked; loop: it follows a path")
+  app->add_option("MODE", command->argument, "track: the eye is tracked; touch: it follows a hand (vindu touch);\n"
+                  "loop: it follows a path")
       ->required()
-      ->check(CLI::IsMember({"track", "loop"}));
+      ->check(CLI::IsMember({"track", "touch", "loop"}));
   add_common(*app, *command);
   app->footer("\nExamples:\n  vindu mode loop\n  vindu mode track --wall wall.toml\n");
   app->callback([command, &chosen] {

@@ -174,6 +174,14 @@ void read_scene(TomlTable& root, SceneConfig& scene) {
   table->finish();
 }
 
+void read_touch(TomlTable& root, TouchConfig& touch) {
+  auto table = root.table("touch");
+  if (!table) return;
+  touch.eye_distance_m =
+      table->number("eye_distance_m", {0.05, 100}).value_or(touch.eye_distance_m);
+  table->finish();
+}
+
 FrameLock lock_from(const std::string& name) {
   return name == "timed" ? FrameLock::timed : name == "free" ? FrameLock::free : FrameLock::barrier;
 }
@@ -334,6 +342,7 @@ Site site_of(const toml::table& parsed, const std::string& file) {
   read_tracking(root, site);
   read_scene(root, site.scene);
   read_cluster(root, site.cluster);
+  read_touch(root, site.touch);
   read_cameras(root, site.cameras);
   internal::apply_calibrations(root, site);
   root.has("tile");  // read with the wall, known even where that failed

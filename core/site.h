@@ -124,6 +124,12 @@ struct ClusterConfig {
   std::string keys{};  ///< folder, made by vindu keys; empty: whoever is on the network takes part
 };
 
+/// The mode touch: the eye follows the hand.
+struct TouchConfig {
+  double eye_distance_m =
+      2;  ///< of the eye from the point that is touched, along its tile's normal
+};
+
 struct Site {
   Wall wall;
   double rate_hz = 60;
@@ -133,6 +139,7 @@ struct Site {
   std::vector<CameraConfig> cameras;
   SceneConfig scene;
   ClusterConfig cluster;
+  TouchConfig touch;
 };
 
 /// With its calibration (core/calibration.h). Throws Error with one line for each thing that is

@@ -68,6 +68,22 @@ const Tile* Wall::find(std::string_view name) const {
   return found == tiles.end() ? nullptr : &*found;
 }
 
+std::optional<WallPoint> point_of_picture(const Wall& wall, const Vec2& at_px) {
+  if (!at_px.allFinite()) return std::nullopt;
+  const WallGrid& grid = wall.grid;
+  const Vec2 in_tiles(at_px.x() / grid.tile_width_px, at_px.y() / grid.tile_height_px);
+  const int column = static_cast<int>(std::clamp(in_tiles.x(), 0.0, grid.columns - 1.0));
+  const int from_top = static_cast<int>(std::clamp(in_tiles.y(), 0.0, grid.rows - 1.0));
+  const Tile* const tile = wall.find(tile_name(column, grid.rows - 1 - from_top));
+  if (!tile) return std::nullopt;
+  const double right = std::clamp(in_tiles.x() - column, 0.0, 1.0);
+  const double down = std::clamp(in_tiles.y() - from_top, 0.0, 1.0);
+  const TileCorners& corners = tile->corners;
+  return WallPoint{tile, corners.upper_left_in_wall +
+                             right * (corners.lower_right_in_wall - corners.lower_left_in_wall) +
+                             down * (corners.lower_left_in_wall - corners.upper_left_in_wall)};
+}
+
 std::string tile_name(int column, int row) {
   return "tile-" + std::to_string(column) + "-" + std::to_string(row);
 }

@@ -81,9 +81,24 @@ struct Wall {
   Rigid3 room_from_wall;    ///< height and tilt
 
   const Tile* find(std::string_view name) const;
+  /// The whole picture, without the bezels: all columns side by side, all rows.
+  Vec2 picture_px() const {
+    return {grid.columns * grid.tile_width_px, grid.rows * grid.tile_height_px};
+  }
   /// One pixel's size for everything that decides quality, the same on all tiles.
   double pixel_pitch_m() const { return grid.width_m / (grid.columns * grid.tile_width_px); }
 };
+
+/// A point of the screen, and the tile that it lies on.
+struct WallPoint {
+  const Tile* tile = nullptr;
+  Vec3 in_wall = Vec3::Zero();
+};
+
+/// Where a point of the wall's picture is: pixels from its upper left corner, x to the right, y
+/// down, as touch systems count (TUIO). What lies beside the picture counts as its edge. Empty
+/// where the wall has no such tile, or for what is not finite. Of `wall`'s tiles.
+std::optional<WallPoint> point_of_picture(const Wall& wall, const Vec2& at_px);
 
 /// Near plane of every tile: a constant of the wall, so that depth agrees at the seams.
 constexpr double kNear_m = 0.01;

@@ -39,6 +39,7 @@ LIBRARIES = {
     "toml++": (r"toml\+\+/|toml\.hpp", r"core/[^/]*\.cpp|core/internal/.*"),
     "spdlog": (r"spdlog/", r"core/[^/]*\.cpp|core/internal/.*"),
     "fmt": (r"fmt/", r".*\.cpp"),
+    "liblo": (r"lo/", r"app/.*"),
     "CLI11": (r"CLI/", r"app/.*"),
 }
 

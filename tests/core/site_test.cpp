@@ -187,6 +187,12 @@ TEST(Site, ReadsHowItsProcessesFindEachOther) {
   EXPECT_TRUE(cluster.keys.ends_with("site/keys"));
 }
 
+TEST(Site, ReadsHowFarTheEyeIsFromTheHand) {
+  EXPECT_EQ(site_of(kGrid).touch.eye_distance_m, 2);
+  EXPECT_EQ(site_of(kGrid + "[touch]\neye_distance_m = 0.8\n").touch.eye_distance_m, 0.8);
+  EXPECT_THROW(site_of(kGrid + "[touch]\neye_distance_m = 0\n"), Error);
+}
+
 TEST(Placement, IsKnownByItsName) {
   EXPECT_EQ(placement_from("fit"), Placement::fit);
   EXPECT_EQ(placement_from("life-size"), Placement::life_size);

@@ -212,6 +212,32 @@ TEST(Wall, HasOnePixelPitch) {
   EXPECT_NEAR(1e3 * expand_wall(tromso_grid(), {}, {}).pixel_pitch_m(), 0.7234, 1e-4);
 }
 
+TEST(PointOfPicture, CountsPixelsFromTheUpperLeftOfAllTilesTogether) {
+  const Wall wall = expand_wall(tromso_grid(), {}, room_from_wall_at(1.55, 0));
+  const auto point = point_of_picture(wall, {7168 - 512, 384});
+  ASSERT_TRUE(point);
+  EXPECT_EQ(point->tile->name, "tile-6-3");
+  EXPECT_THAT(point->in_wall, IsNearPoint(wall.find("tile-6-3")->corners.centre_in_wall(), 1e-9));
+  EXPECT_THAT(point_of_picture(wall, {0, 0})->in_wall,
+              IsNearPoint(wall.find("tile-0-3")->corners.upper_left_in_wall, 1e-9));
+}
+
+TEST(PointOfPicture, SkipsBezels) {
+  WallGrid grid = tromso_grid();
+  grid.bezel_x_mm = 50;
+  const Wall wall = expand_wall(grid, {}, room_from_wall_at(1.55, 0));
+  const Vec3 before = point_of_picture(wall, {1024 - 1e-6, 0})->in_wall;
+  const Vec3 after = point_of_picture(wall, {1024, 0})->in_wall;
+  EXPECT_NEAR((after - before).x(), 0.050, 1e-6);
+}
+
+TEST(PointOfPicture, TakesWhatIsBesideItForItsEdgeAndRefusesWhatIsNoNumber) {
+  const Wall wall = expand_wall(tromso_grid(), {}, room_from_wall_at(1.55, 0));
+  EXPECT_THAT(point_of_picture(wall, {-1e300, 1e300})->in_wall,
+              IsNearPoint(wall.find("tile-0-0")->corners.lower_left_in_wall, 1e-9));
+  EXPECT_FALSE(point_of_picture(wall, {std::nan(""), 0}));
+}
+
 TEST(SingleScreen, IsAWallOfOneTileAtTheDefaultHeight) {
   const Wall wall = single_screen(0.6, 0.34, 1920, 1080);
   ASSERT_EQ(wall.tiles.size(), 1u);

@@ -1,5 +1,6 @@
 // A wall of real processes on loopback: a master and tiles that draw. Which frame a tile showed is
 // read from its pixels. Nothing here says how long anything may take.
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <set>
 #include <thread>
 
+#include "tests/app/osc_bytes.h"
 #include "tests/app/process.h"
 #include "tests/wall/children.h"
 #include "tests/wall/swaps.h"
@@ -36,6 +38,16 @@ position_m = [1.0, 2.3, 5.0]
 look_at_m = [0, 1.65, 2.0]
 focal_px = 1335
 )";
+
+void send_datagram(int port, const Bytes& bytes) {
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(static_cast<std::uint16_t>(port));
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const int file = socket(AF_INET, SOCK_DGRAM, 0);
+  sendto(file, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  close(file);
+}
 
 /// Between commas; empty ones too.
 std::vector<std::string> cells_of(const std::string& line) {
@@ -281,6 +293,32 @@ TEST_F(WallTest, ShowsAnotherModelAndKeepsItWhereTheNextOneCannotBeRead) {
   EXPECT_EQ(ask({"stop"}).exit_code, 0);
   EXPECT_EQ(master.end(), 0);
   expect_right({"tile-0-0.csv", "tile-1-1.csv"});
+}
+
+TEST_F(WallTest, FollowsAHandThatATouchFrameReports) {
+  const std::string port = std::to_string(20000 + getpid() % 20000);
+  Child tile = start_tile("tile-0-0");
+  Child master = start_master({}, "touch");
+  Child touch({VINDU_PROGRAM, "touch", "--wall", wall_file_, "--port", port}, path("touch.log"));
+  const auto eye_x_m = [&] {
+    const std::vector<Swap> swaps = swaps_in(path("tile-0-0.csv"));
+    return swaps.empty() ? 0.0 : std::stod(swaps.back().eye_x_m);
+  };
+  // Repeated, as senders do: the first ones come before the others know each other.
+  for (int frame = 1; std::abs(eye_x_m() - 0.5) > 1e-3; ++frame) {
+    send_datagram(std::stoi(port),
+                  bundle({source("frame"), alive({3}), set(3, frame % 2 ? 0.7f : 0.75f, 0.5f),
+                          fseq(2 * frame)}));
+    send_datagram(std::stoi(port),
+                  bundle({source("frame"), alive({3}), set(3, 0.75f, 0.5f), fseq(2 * frame + 1)}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  send_datagram(std::stoi(port), {1, 2, 3});
+  touch.send(SIGINT);
+  EXPECT_EQ(touch.end(), 0);
+  EXPECT_THAT(bytes_of(path("touch.log")), HasSubstr("1 messages were no TUIO"));
+  EXPECT_TRUE(master.runs());
+  expect_right({"tile-0-0.csv"});
 }
 
 TEST_F(WallTest, SaysThatATileHasAnotherFileThanTheMaster) {
