@@ -16,6 +16,7 @@ import shape
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 import check_skips  # noqa: E402
+import tidy  # noqa: E402
 
 
 class Planted(unittest.TestCase):
@@ -100,6 +101,26 @@ class Shape(Planted):
         lines = ["namespace a {", "", "int one() { return 1; }", "", "void four(int b,",
                  "          int c) {", "  b = c;", "}", "", "struct D {", "  int e;", "};", "", "}"]
         self.assertEqual([size for _, size in shape.function_sizes(lines)], [4])
+
+
+class Tidy(Planted):
+    def key(self):
+        return tidy.key_of(self.root, Path("core/a.cpp"), "c++ -c", b"settings")
+
+    def test_a_source_is_looked_at_again_when_a_header_behind_a_header_changes(self):
+        self.write("core/a.cpp", '#include "core/a.h"\n')
+        self.write("core/a.h", '#include "core/b.h"\n')
+        self.write("core/b.h", "int b();\n")
+        before = self.key()
+        self.assertEqual(self.key(), before)
+        self.write("core/b.h", "int c();\n")
+        self.assertNotEqual(self.key(), before)
+
+    def test_headers_that_include_each_other_come_to_an_end(self):
+        self.write("core/a.cpp", '#include "core/a.h"\n')
+        self.write("core/a.h", '#include "core/b.h"\n')
+        self.write("core/b.h", '#include "core/a.h"\n')
+        self.assertEqual(len(tidy.texts_behind(self.root, Path("core/a.cpp"))), 3)
 
 
 class Format(Planted):
