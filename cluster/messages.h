@@ -19,7 +19,7 @@
 namespace vindu {
 
 /// Two Vindus understand each other when this is equal; it names every topic.
-constexpr int kProtocolVersion = 2;
+constexpr int kProtocolVersion = 3;
 
 /// Master to tiles, repeated: whole and idempotent, the newest is all that a tile needs.
 struct FrameMessage {

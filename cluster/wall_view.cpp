@@ -113,6 +113,8 @@ std::string master_line(const WallNow& wall) {
                       wall.frames_per_s, wall.active_tiles, wall.tiles.size());
   if (wall.report && wall.report->frames.tracked)
     text += fmt::format(", eye {}", name_of(wall.report->level));
+  if (wall.pattern != Pattern::none) text += fmt::format(", pattern {}", name_of(wall.pattern));
+  if (wall.blank) text += ", blank";
   return text + "\n";
 }
 
@@ -187,6 +189,8 @@ void WallView::hear(const FrameMessage& frame, Time now) {
   if (frame.epoch > now_.epoch) beats_.clear();
   now_.epoch = frame.epoch;
   now_.frame = frame.newest.number;
+  now_.pattern = frame.newest.pattern;
+  now_.blank = frame.newest.blank;
   now_.active_tiles = frame.active_tiles;
   beats_.push_back({now, frame.newest.number});
   while (now - beats_.front().heard > kBeats) beats_.pop_front();

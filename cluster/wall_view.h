@@ -27,6 +27,8 @@ struct WallNow {
   std::optional<Participant> master{};
   std::uint64_t epoch = 0;
   std::uint64_t frame = 0;                ///< newest; 0: none was heard
+  Pattern pattern = Pattern::none;        ///< of that frame
+  bool blank = false;                     ///< the same
   double frames_per_s = 0;                ///< over the last seconds
   std::uint32_t active_tiles = 0;         ///< in the frame lock
   std::optional<ReportMessage> report{};  ///< the master's newest about the whole wall

@@ -36,6 +36,8 @@ std::uint64_t hash_of(const FrameState& state) {
   hash.add(state.animation_time_s);
   hash.add(static_cast<std::uint64_t>(state.mode));
   hash.add(std::uint64_t{state.overlays});
+  hash.add(static_cast<std::uint64_t>(state.pattern));
+  hash.add(std::uint64_t{state.blank});
   return hash.value();
 }
 

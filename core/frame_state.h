@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/clock.h"
+#include "core/pattern.h"
 #include "core/rigid3.h"
 
 namespace vindu {
@@ -23,10 +24,9 @@ struct Navigation {
   double scale = 1;
 };
 
-/// What is drawn over the scene, as bits.
+/// What is drawn over it, as bits.
 enum Overlay : std::uint32_t {
-  kFrameCounter = 1,  ///< the frame's number, large enough to be read from the pixels again
-  kStatistics = 2,    ///< of each tile in its own corner, and of the wall in one
+  kStatistics = 1,  ///< of each tile in its own corner, and of the wall in one
 };
 
 struct FrameState {
@@ -37,7 +37,14 @@ struct FrameState {
   double animation_time_s = 0;
   Mode mode = Mode::track;
   std::uint32_t overlays = 0;
+  Pattern pattern = Pattern::none;
+  bool blank = false;  ///< black, whatever else is said here
 };
+
+/// Else the frame needs no scene.
+inline bool shows_model(const FrameState& state) {
+  return !state.blank && (state.pattern == Pattern::none || state.pattern == Pattern::counter);
+}
 
 /// 64-bit FNV-1a over every field's bytes, little endian: two tiles with one hash draw the same
 /// frame.

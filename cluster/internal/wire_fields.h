@@ -41,6 +41,8 @@ void fields(Op& op, Wire& wire, Value& state) {
   op.number(wire.animation_time_s, state.animation_time_s);
   op.choice(wire.mode, state.mode, Mode::track);
   op.count(wire.overlays, state.overlays);
+  op.choice(wire.pattern, state.pattern, Pattern::eye);
+  op.flag(wire.blank, state.blank);
 }
 
 template <class Op, class Wire, class Value>

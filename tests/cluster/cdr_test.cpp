@@ -30,12 +30,14 @@ TEST(FrameStateCdr, ComesBackBitByBit) {
 
 // What recordings rest on: these bytes may change only together with kProtocolVersion.
 TEST(FrameStateCdr, IsPlainLittleEndianCdrBehindItsHeader) {
-  const Bytes bytes = to_cdr(FrameState{.number = 0x0102});
+  const Bytes bytes = to_cdr(FrameState{.number = 0x0102, .pattern = Pattern::bar, .blank = true});
 
-  EXPECT_EQ(bytes.size(), 4 + 8 * (2 + 3 + 4 + 3 + 2) + 4 + 1u);
+  EXPECT_EQ(bytes.size(), 4 + 8 * (2 + 3 + 4 + 3 + 2) + 4 + 3u);
   EXPECT_THAT(Bytes(bytes.begin(), bytes.begin() + 12),
               ::testing::ElementsAre(0, 1, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0));
-  EXPECT_EQ(bytes.back(), static_cast<int>(Mode::track));
+  EXPECT_THAT(
+      Bytes(bytes.end() - 3, bytes.end()),
+      ::testing::ElementsAre(static_cast<int>(Mode::track), static_cast<int>(Pattern::bar), 1));
 }
 
 TEST(FrameStateCdr, RefusesEveryLengthButItsOwn) {
@@ -78,7 +80,9 @@ TEST(FrameStateCdr, RefusesTheSameFromOutside) {
   EXPECT_FALSE(frame_state_from_cdr(with(4 + 8 + 7, {0x7f}))) << "a time of 292 years";
   EXPECT_FALSE(frame_state_from_cdr(with(4 + 16 + 6, {0xf8, 0x7f}))) << "NaN";
   EXPECT_FALSE(frame_state_from_cdr(with(4 + 16 + 6, {0xf0, 0x7f}))) << "infinite";
-  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 1, {3}))) << "no mode";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 3, {3}))) << "no mode";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 2, {8}))) << "no pattern";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 1, {2}))) << "neither blank nor not";
   EXPECT_FALSE(frame_state_from_cdr(with(1, {0}))) << "big endian";
   EXPECT_FALSE(frame_state_from_cdr(with(1, {9}))) << "another encoding";
 }

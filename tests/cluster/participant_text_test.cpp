@@ -12,9 +12,10 @@ using internal::participant_from;
 using internal::text_of;
 
 const Participant kTile{.role = Role::tile, .name = "tile-3-0", .host = "node7", .version = "0.1"};
+const std::string kProtocol = std::to_string(kProtocolVersion);
 
 TEST(ParticipantText, ComesBack) {
-  EXPECT_EQ(text_of(kTile), "role=tile name=tile-3-0 host=node7 version=0.1 protocol=2");
+  EXPECT_EQ(text_of(kTile), "role=tile name=tile-3-0 host=node7 version=0.1 protocol=" + kProtocol);
   EXPECT_EQ(participant_from(text_of(kTile)), kTile);
 }
 
@@ -40,11 +41,13 @@ TEST(ParticipantText, OfANameThatCannotBeSaidThrows) {
 
 TEST(VersionComplaint, NamesBothSidesAndTheRemedy) {
   Participant other = kTile;
-  other.protocol = 3;
+  other.protocol = 99;
   EXPECT_EQ(version_complaint({Role::master, "master", "node0", "0.2"}, other),
-            "tile tile-3-0 on node7 (vindu 0.1) speaks protocol 3, but master master on node0 "
-            "(vindu 0.2) speaks protocol 2: they do not hear each other; install the same vindu "
-            "on both (vindu deploy)");
+            "tile tile-3-0 on node7 (vindu 0.1) speaks protocol 99, but master master on node0 "
+            "(vindu 0.2) speaks protocol " +
+                kProtocol +
+                ": they do not hear each other; install the same vindu "
+                "on both (vindu deploy)");
 }
 
 }  // namespace

@@ -154,7 +154,9 @@ FrameState random_state(Random& random) {
   state.navigation.scale = random.uniform(1e-6, 1e6);
   state.animation_time_s = random.normal(1000);
   state.mode = choice(random, Mode::track);
-  state.overlays = random.uniform(0, 1) < 0.5 ? std::uint32_t{kFrameCounter} : 0;
+  state.overlays = random.uniform(0, 1) < 0.5 ? std::uint32_t{kStatistics} : 0;
+  state.pattern = choice(random, Pattern::eye);
+  state.blank = random.uniform(0, 1) < 0.5;
   return state;
 }
 

@@ -52,6 +52,17 @@ TEST_F(Views, OfAGoodWallAreOneLineOfTiles) {
             "tile-[0-6]-[0-3]  ready  100    60   -       -        0     0\n");
 }
 
+TEST_F(Views, SayThatAPatternIsShownOrThatTheWallIsBlank) {
+  FrameMessage frame{.epoch = 1, .newest = {.number = 7}};
+  view_.hear(frame, Time{});
+  EXPECT_THAT(table_of(view_.now()), Not(HasSubstr("pattern")));
+  EXPECT_THAT(table_of(view_.now()), Not(HasSubstr("blank")));
+
+  frame.newest = {.number = 8, .pattern = Pattern::seams, .blank = true};
+  view_.hear(frame, Time{});
+  EXPECT_THAT(table_of(view_.now()), HasSubstr("in the frame lock, pattern seams, blank\n"));
+}
+
 TEST_F(Views, NameWhatIsNotReadyFirst) {
   say("tile-3-1", TileState::failed, 1, "no such model");
   view_.hear(Presence{PresenceChange::silent, tile("tile-0-0")});

@@ -37,7 +37,9 @@ TEST(FrameHash, ChangesWithEveryField) {
       [](FrameState& state) { state.navigation.scale += 1e-9; },
       [](FrameState& state) { state.animation_time_s += 1e-9; },
       [](FrameState& state) { state.mode = Mode::loop; },
-      [](FrameState& state) { state.overlays = kFrameCounter; }};
+      [](FrameState& state) { state.overlays = kStatistics; },
+      [](FrameState& state) { state.pattern = Pattern::grid; },
+      [](FrameState& state) { state.blank = true; }};
   std::set<std::uint64_t> hashes = {hash_of(some_state())};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     FrameState changed = some_state();
