@@ -37,10 +37,20 @@ Picture::Picture(SizePx size, Style style)
   check_complete(framebuffer_.name(), size);
 }
 
-void Picture::clear(Rgba8 colour) {
+void Picture::clear(Rgba8 colour, const RectPx& part) {
   glDisable(GL_FRAMEBUFFER_SRGB);  // the bytes as they are
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(part.x, part.y, part.size.width, part.size.height);
   const float values[] = {colour[0] / 255.0f, colour[1] / 255.0f, colour[2] / 255.0f, 1.0f};
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, values);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Picture::copy(const Picture& other, int x, int y) {
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  const auto [width, height] = other.size_;
+  glBlitNamedFramebuffer(other.framebuffer(), framebuffer(), 0, 0, width, height, x, y, x + width,
+                         y + height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 Image Picture::read() const { return read({0, 0, size_}); }

@@ -42,7 +42,8 @@ class Picture {
   SizePx size() const { return size_; }
   GLuint texture() const { return texture_.name(); }
   GLuint framebuffer() const { return framebuffer_.name(); }
-  void clear(Rgba8 colour);
+  void clear(Rgba8 colour) { clear(colour, {0, 0, size_}); }
+  void clear(Rgba8 colour, const RectPx& part);
   /// For pictures that are drawn smaller than they are.
   void make_mipmaps() { glGenerateTextureMipmap(texture_.name()); }
   Image read() const;
@@ -51,6 +52,8 @@ class Picture {
   void write(const Image& image) { write(image, 0, 0); }
   /// Into a part, the image's lower left at (x, y); it must lie within the picture.
   void write(const Image& image, int x, int y);
+  /// All of another one into a part, its lower left at (x, y); the bytes as they are.
+  void copy(const Picture& other, int x, int y);
 
  private:
   SizePx size_;

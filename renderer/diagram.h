@@ -20,6 +20,9 @@ constexpr Rgba8 kFaint{222, 226, 230, 255};
 constexpr Rgba8 kBlue{0, 114, 178, 255};
 constexpr Rgba8 kVermilion{213, 94, 0, 255};
 
+/// The colour over the pixel; its alpha and `cover`, 0 to 1, are how much of it.
+void blend(Rgba8& pixel, const Rgba8& colour, double cover);
+
 class Diagram {
  public:
   Diagram(SizePx size, Rgba8 paper) : image_(Image::filled(size.width, size.height, paper)) {

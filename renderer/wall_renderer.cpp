@@ -43,10 +43,11 @@ WallLayout layout_of(const Wall& wall, double scale) {
   return layout;
 }
 
-WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look)
+WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look, const Wall& whole)
     : wall_(wall),
       layout_(layout_of(wall, scale)),
       renderer_(look),
+      patterns_(whole, look.style),
       picture_(std::make_unique<Picture>(layout_.size, look.style)) {
   picture_->clear({0, 0, 0, 255});
   for (const RectPx& tile : layout_.tiles) {
@@ -87,21 +88,34 @@ void WallRenderer::show_prepared() {
 }
 
 WallFrame WallRenderer::draw(const FrameState& state, const Tile* only) {
-  const Navigation& navigation = state.navigation;
-  if (scene_)
-    scene_->pose(matrix_of(navigation.wall_from_scene, navigation.scale), state.animation_time_s);
   std::vector<std::size_t> wanted;
   for (std::size_t index = 0; index < wall_.tiles.size(); ++index)
     if (!only || only->name == wall_.tiles[index].name) wanted.push_back(index);
-  update_shadow(state, wanted);
   WallFrame frame;
   frame.tile_counts.resize(wall_.tiles.size());
-  const std::size_t together = static_cast<std::size_t>(cells_x_) * cells_y_;
-  for (std::size_t first = 0; first < wanted.size(); first += together) {
-    const std::size_t count = std::min(together, wanted.size() - first);
-    draw_together(state, std::span(wanted).subspan(first, count), frame);
-  }
+  if (shows_model(state))
+    draw_scene(state, wanted, frame);
+  else
+    for (const std::size_t index : wanted)
+      patterns_.draw(state, wall_.tiles[index], layout_.tiles[index], *picture_);
+  for (const std::size_t index : wanted)
+    PatternPainter::draw_number(state, layout_.tiles[index], *picture_);
   return frame;
+}
+
+void WallRenderer::draw_numbers(const FrameState& state) {
+  for (const RectPx& place : layout_.tiles) PatternPainter::draw_number(state, place, *picture_);
+}
+
+void WallRenderer::draw_scene(const FrameState& state, std::span<const std::size_t> tiles,
+                              WallFrame& frame) {
+  const Navigation& navigation = state.navigation;
+  if (scene_)
+    scene_->pose(matrix_of(navigation.wall_from_scene, navigation.scale), state.animation_time_s);
+  update_shadow(state, tiles);
+  const std::size_t together = static_cast<std::size_t>(cells_x_) * cells_y_;
+  for (std::size_t first = 0; first < tiles.size(); first += together)
+    draw_together(state, tiles.subspan(first, std::min(together, tiles.size() - first)), frame);
 }
 
 /// Only where one of the tiles shows something that is lit: most tiles of a wall may not.

@@ -9,6 +9,7 @@
 
 #include "core/frame_state.h"
 #include "core/wall.h"
+#include "renderer/pattern.h"
 #include "renderer/scene_renderer.h"
 
 namespace vindu {
@@ -32,7 +33,10 @@ struct WallFrame {
 class WallRenderer {
  public:
   /// Throws Error when the picture is too large for this GPU.
-  WallRenderer(const Wall& wall, double scale, const Look& look);
+  WallRenderer(const Wall& wall, double scale, const Look& look)
+      : WallRenderer(wall, scale, look, wall) {}
+  /// Of some tiles of a whole wall, over all of which patterns reach.
+  WallRenderer(const Wall& wall, double scale, const Look& look, const Wall& whole);
 
   /// Replaces the scene; when that throws, the old one stays.
   void show(const Scene& scene);
@@ -43,6 +47,8 @@ class WallRenderer {
 
   /// Draws all tiles, or only one, into picture().
   WallFrame draw(const FrameState& state, const Tile* only = nullptr);
+  /// The frame's number once more, over what came over the tiles' pictures since.
+  void draw_numbers(const FrameState& state);
 
   /// Waits until the GPU has drawn everything.
   void finish() const { glFinish(); }
@@ -58,11 +64,13 @@ class WallRenderer {
 
  private:
   void update_shadow(const FrameState& state, std::span<const std::size_t> tiles);
+  void draw_scene(const FrameState& state, std::span<const std::size_t> tiles, WallFrame& frame);
   void draw_together(const FrameState& state, std::span<const std::size_t> tiles, WallFrame& frame);
 
   Wall wall_;
   WallLayout layout_;
   SceneRenderer renderer_;
+  PatternPainter patterns_;
   std::unique_ptr<Picture> picture_;
   // Tiles are drawn beside each other and copied together, so that a GPU need not wait for one to
   // be drawn before the next.
