@@ -51,6 +51,21 @@ CLI::Option* add_vec3(CLI::App& app, const std::string& name, std::optional<Vec3
       ->type_name("X,Y,Z");
 }
 
+std::vector<std::string> pattern_names() {
+  std::vector<std::string> names;
+  for (const Pattern pattern : kPatterns) names.emplace_back(name_of(pattern));
+  return names;
+}
+
+CLI::Option* add_pattern_choice(CLI::App& app, Pattern& value) {
+  return app
+      .add_option_function<std::string>(
+          "--pattern",
+          [&value](const std::string& name) { value = pattern_from(name).value_or(Pattern::none); },
+          "A test picture instead of the model; see vindu pattern --help")
+      ->check(CLI::IsMember(pattern_names()));
+}
+
 std::optional<Vec3> vec3_from(const std::string& text) {
   Vec3 value;
   const char* at = text.data();

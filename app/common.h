@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/pattern.h"
 #include "core/site.h"
 #include "renderer/canvas.h"
 #include "renderer/placement.h"
@@ -29,6 +31,11 @@ CLI::Validator between(double least, double largest);
 
 /// --place fit | life-size | as-is
 CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value);
+
+/// --pattern NAME; vindu pattern --help says what each is.
+CLI::Option* add_pattern_choice(CLI::App& app, Pattern& value);
+/// "none", "grid", ...
+std::vector<std::string> pattern_names();
 
 /// The wall file, or the Tromsø wall that comes with Vindu when the name is empty.
 Site load_site(const std::string& wall_file);

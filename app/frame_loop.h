@@ -26,6 +26,7 @@ struct LoopOptions {
   Duration display_latency{};
   std::optional<Duration> length;  ///< empty: until the surface is closed
   Navigation navigation;
+  Pattern pattern = Pattern::none;
 };
 
 struct LoopResult {

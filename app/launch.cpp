@@ -95,6 +95,8 @@ void add_handed_on(CLI::App& app, LaunchCommand& command) {
   hand_on(app, "--mode", command.master_options,
           "track: the eye is tracked; loop: it follows a path; touch: it follows a hand")
       ->check(CLI::IsMember({"track", "loop", "touch"}));
+  hand_on(app, "--pattern", command.master_options, "A test picture; see vindu pattern --help")
+      ->check(CLI::IsMember(pattern_names()));
   hand_on(app, "--path", command.master_options, "Camera path of the mode loop")->type_name("FILE");
   hand_on(app, "--seconds", command.master_options, "Length (default: until Ctrl-C)")
       ->check(between(0.05, 1e8));

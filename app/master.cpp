@@ -38,7 +38,7 @@ struct MasterCommand {
   EmulationOptions emulation;
   bool tracker_elsewhere = false;
   std::string csv_file;
-  bool counter = false;
+  Pattern pattern = Pattern::none;
   bool overlay = false;
   bool json = false;
 };
@@ -104,8 +104,8 @@ class MasterRun {
                       .barrier = {.lock = site.cluster.lock}}),
         eye_in_wall_(site.viewer.default_eye_in_wall),
         elsewhere_(command.tracker_elsewhere),
-        overlays_((command.counter ? std::uint32_t{kFrameCounter} : 0) |
-                  (command.overlay ? std::uint32_t{kStatistics} : 0)),
+        overlays_(command.overlay ? std::uint32_t{kStatistics} : 0),
+        pattern_(command.pattern),
         figures_(tile_names(site.wall), display_latency(), command.csv_file) {
     set_mode(command.mode, command.path_file);
     placing_.start(command.model, command.place, site);
@@ -190,7 +190,9 @@ class MasterRun {
                               .navigation = navigation_,
                               .animation_time_s = seconds(now.time_since_epoch()),
                               .mode = eye.mode,
-                              .overlays = overlays_};
+                              .overlays = overlays_,
+                              .pattern = pattern_,
+                              .blank = blank_};
     wall_.begin(state, now, origin);
     figures_.begun(origin, eye.pose ? std::optional(eye.pose->level) : std::nullopt);
     if (const auto report = figures_.report(now, wall_.tiles())) wall_.report(*report);
@@ -275,7 +277,8 @@ class MasterRun {
         set_overlay(kStatistics, command.argument == "on");
         break;
       case Verb::blank:
-        throw Error({"cannot blank the wall yet", "the master", "stop it: vindu stop"});
+        set_blank(command.argument);
+        break;
     }
     reply(command, true, "");
   }
@@ -297,9 +300,17 @@ class MasterRun {
   }
 
   void set_pattern(const std::string& pattern) {
-    if (pattern != "counter" && pattern != "none")
-      throw Error({"there is no pattern " + pattern, "pattern", "choose counter or none"});
-    set_overlay(kFrameCounter, pattern == "counter");
+    const auto known = pattern_from(pattern);
+    if (!known)
+      throw Error({"there is no pattern " + pattern, "pattern",
+                   fmt::format("choose one of {}", fmt::join(pattern_names(), ", "))});
+    pattern_ = *known;
+  }
+
+  void set_blank(const std::string& word) {
+    if (word != "on" && word != "off")
+      throw Error({"is neither on nor off: \"" + word + "\"", "blank", "say on or off"});
+    blank_ = word == "on";
   }
 
   void set_overlay(Overlay overlay, bool on) {
@@ -331,6 +342,8 @@ class MasterRun {
   std::optional<Glide> glide_;
   bool elsewhere_;
   std::uint32_t overlays_;
+  Pattern pattern_;
+  bool blank_ = false;
   bool stopped_ = false;
   WallFigures figures_;
 };
@@ -365,7 +378,7 @@ void add_master(CLI::App& parent, Action& chosen) {
   app->add_flag("--tracker-elsewhere", command->tracker_elsewhere,
                 "Leaves the wall file's cameras to vindu track --publish on another host;\n"
                 "without it they are asked while no such tracker is heard");
-  app->add_flag("--counter", command->counter, "Tiles show each frame's number");
+  add_pattern_choice(*app, command->pattern);
   app->add_flag("--overlay", command->overlay, "Tiles show their figures (vindu overlay on)");
   app->add_option("--csv", command->csv_file,
                   "Writes a line for each frame: its parts, motion to photon, skew")

@@ -1,4 +1,4 @@
-// vindu render: pictures of a model on a wall from one eye, off-screen.
+// vindu render: pictures of a model, or of a test pattern, on a wall from one eye, off-screen.
 #include <cstdio>
 #include <memory>
 
@@ -25,6 +25,7 @@ struct RenderOptions {
   std::optional<int> device;
   double scale = 1;
   double time_s = 0;
+  Pattern pattern = Pattern::none;
   bool all = false;
   bool unlit = false;
 };
@@ -54,15 +55,22 @@ const Tile* chosen_tile(const Wall& wall, const std::string& name) {
 int render(const RenderOptions& options) {
   const Site site = load_site(options.wall_file);
   const Tile* only = chosen_tile(site.wall, options.tile);
-  const LoadedScene loaded = load_scene(options.model, options.place, site);
+  const Time photon_time = Time{} + from_seconds(options.time_s);
+  FrameState state{.number = static_cast<std::uint64_t>(options.time_s * site.rate_hz),
+                   .photon_time = photon_time,
+                   .eye_in_wall = options.eye.value_or(site.viewer.default_eye_in_wall),
+                   .animation_time_s = options.time_s,
+                   .pattern = options.pattern};
+  std::optional<LoadedScene> loaded;
+  if (shows_model(state)) loaded = load_scene(options.model, options.place, site);
   make_folder(options.out);
   const auto surface = make_headless_surface({.device = options.device});
   log_debug("render", gl_description());
   WallRenderer wall(site.wall, options.scale, Look{options.unlit ? Style::unlit : Style::lit});
-  wall.show(loaded.scene);
-  FrameState state{.eye_in_wall = options.eye.value_or(site.viewer.default_eye_in_wall),
-                   .navigation = loaded.navigation,
-                   .animation_time_s = options.time_s};
+  if (loaded) {
+    wall.show(loaded->scene);
+    state.navigation = loaded->navigation;
+  }
   const WallFrame frame = wall.draw(state, only);
   for (const std::string& name : frame.black_tiles)
     log_warning(name, "is black: the eye is at or behind its plane");
@@ -93,9 +101,12 @@ void add_render(CLI::App& parent, Action& chosen) {
   app->add_option("--scale", options->scale, "Pixels per pixel of the wall")
       ->check(between(0.005, 4.0));
   add_place(*app, options->place);
+  add_pattern_choice(*app, options->pattern);
   app->add_flag("--unlit", options->unlit,
                 "Base colours as they are: no light, tone, sRGB or multisampling");
-  app->add_option("--time", options->time_s, "Animation time in seconds");
+  app->add_option("--time", options->time_s,
+                  "Animation time in seconds; of a pattern the photon time")
+      ->check(between(0.0, 1e9));
   app->add_option("--device", options->device, "EGL device (GPU) by its index");
   app->add_option("--out", options->out, "Folder for the pictures (default: out)")
       ->type_name("DIR");
@@ -104,7 +115,8 @@ void add_render(CLI::App& parent, Action& chosen) {
       "(what the viewer sees).\n"
       "\nExamples:\n"
       "  vindu render model.glb --wall wall.toml --eye -1,0.1,2 --scale 0.25 --out pictures\n"
-      "  vindu render scan.ply --tile tile-3-1 --place life-size\n");
+      "  vindu render scan.ply --tile tile-3-1 --place life-size\n"
+      "  vindu render --pattern grid --wall wall.toml --scale 0.25\n");
   app->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }
 

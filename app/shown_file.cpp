@@ -9,21 +9,32 @@
 #include "renderer/frame_counter.h"
 
 namespace vindu::app {
+namespace {
+
+/// Of all pixels' red, green and blue, 0 to 255.
+double mean_level(const Image& image) {
+  std::uint64_t sum = 0;
+  for (const Rgba8& pixel : image.pixels) sum += pixel[0] + pixel[1] + pixel[2];
+  return static_cast<double>(sum) / (3.0 * static_cast<double>(image.pixels.size()));
+}
+
+}  // namespace
 
 ShownFile::ShownFile(const std::string& file) : file_(file) {
   if (file.empty()) return;
   stream_.rdbuf()->pubsetbuf(nullptr, 0);  // each line at once: a tile may be killed
   stream_.open(file);
   if (!stream_) throw Error({"cannot be written", file, "choose another --shown"});
-  write("", "time_ns,epoch,frame,tile,pixels,eye_x_m,locked\n");
+  write("", "time_ns,epoch,frame,tile,pixels,eye_x_m,locked,mean_level\n");
 }
 
 void ShownFile::add(Time time, const FrameMessage& frame, const std::string& tile,
                     const Image& picture) {
   const auto number = read_frame_counter(picture);
-  write(tile, fmt::format("{},{},{},{},{},{},{}\n", time.time_since_epoch().count(), frame.epoch,
-                          frame.newest.number, tile, number ? std::to_string(*number) : "",
-                          frame.newest.eye_in_wall.x(), frame.active_tiles));
+  write(tile,
+        fmt::format("{},{},{},{},{},{},{},{:.4f}\n", time.time_since_epoch().count(), frame.epoch,
+                    frame.newest.number, tile, number ? std::to_string(*number) : "",
+                    frame.newest.eye_in_wall.x(), frame.active_tiles, mean_level(picture)));
 }
 
 void ShownFile::write(const std::string& tile, const std::string& line) {

@@ -1,4 +1,5 @@
-// What a tile's pixels showed: a line for each swap, with how many tiles were in the lock. A disk
+// What a tile's pixels showed: a line for each swap, with how many tiles were in the lock and how
+// bright the picture was. A disk
 // that is full loses lines, never the tile, and no line is torn.
 #pragma once
 

@@ -44,6 +44,7 @@ struct SimulateOptions {
   std::optional<double> seconds;
   std::optional<double> scale;
   std::optional<int> device;
+  Pattern pattern = Pattern::none;
   std::uint64_t seed = 52;  // a walk that soon goes to both sides
   double noise_px = 0.3;
   EmulationOptions emulation;
@@ -225,7 +226,8 @@ LoopResult play(Run& run) {
   LoopOptions loop{.rate_hz = run.site.rate_hz,
                    .display_latency = from_seconds(1e-3 * run.site.viewer.display_latency_ms),
                    .length = {},
-                   .navigation = run.loaded.navigation};
+                   .navigation = run.loaded.navigation,
+                   .pattern = run.options.pattern};
   auto* const window = dynamic_cast<Window*>(run.surface.get());
   if (run.options.seconds || !window) loop.length = from_seconds(run.options.seconds.value_or(15));
   std::optional<WindowPainter> painter;
@@ -350,6 +352,7 @@ void add_simulate(CLI::App& parent, Action& chosen) {
   app->add_option("--wall", options->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
   add_place(*app, options->place);
+  add_pattern_choice(*app, options->pattern);
   app->add_option("--mode", options->mode, "track: the eye is tracked; loop: it follows a path")
       ->check(CLI::IsMember({"track", "loop"}));
   app->add_option("--path", options->path_file, "Camera path of loop mode")->type_name("FILE");

@@ -18,7 +18,6 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/sha256.h"
-#include "renderer/frame_counter.h"
 #include "renderer/gpu_timer.h"
 #include "renderer/notice.h"
 #include "renderer/resources.h"
@@ -99,7 +98,7 @@ class TilePainter {
   TilePainter(const Site& site, const Wall& part, double scale, Surface& surface)
       : part_(part),
         surface_(surface),
-        renderer_(part, scale, tile_look()),
+        renderer_(part, scale, tile_look(), site.wall),
         statistics_(site, part) {}
 
   WallRenderer& renderer() { return renderer_; }
@@ -113,21 +112,19 @@ class TilePainter {
     }
   }
 
-  /// `words` stand where there is no scene to show.
+  /// `words` stand where the frame wants a scene and there is none to show.
   void draw(const FrameState& state, const std::vector<std::string>& words) {
     const Time began = std::chrono::steady_clock::now();
     WallFrame frame;
-    if (words.empty()) {
+    if (words.empty() || !shows_model(state)) {
       timer_.begin();
       frame = renderer_.draw(state);
       timer_.end();
     } else {
       note(words);
     }
-    if (state.overlays & kStatistics) statistics_.draw_over(renderer_);
-    if (state.overlays & kFrameCounter)
-      for (const RectPx& place : renderer_.layout().tiles)
-        draw_frame_counter(state.number, place, renderer_.picture());
+    if (state.overlays & kStatistics && !state.blank) statistics_.draw_over(renderer_);
+    renderer_.draw_numbers(state);
     renderer_.finish();
     statistics_.drew(frame, std::chrono::steady_clock::now() - began, timer_.newest());
   }
@@ -349,7 +346,7 @@ void add_tile(CLI::App& parent, Action& chosen) {
       ->check(between(0.0, 1.0));
   app->add_option("--shown", command->shown_file,
                   "Writes for each swap when it was, which frame it showed, and the number\n"
-                  "that a frame counter (vindu pattern counter) shows in the pixels")
+                  "that it shows in its pixels (vindu pattern counter, or bar)")
       ->type_name("FILE");
   app->footer(
       "\nExamples:\n"

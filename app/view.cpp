@@ -12,6 +12,7 @@
 #include "app/window_statistics.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "renderer/pattern.h"
 #include "renderer/resources.h"
 #include "renderer/scene_renderer.h"
 #include "renderer/surface.h"
@@ -32,6 +33,7 @@ struct ViewOptions {
   std::optional<int> device;
   std::vector<double> screen_mm;
   std::uint64_t seed = 1;
+  Pattern pattern = Pattern::none;
   bool mouse = false;
   bool track = false;
   bool fullscreen = false;
@@ -107,6 +109,7 @@ class Viewer {
         window_(window),
         site_(screen_site(options, window.screen())),
         renderer_(live_look()),
+        patterns_(site_.wall, Style::lit),
         statistics_(window, site_.rate_hz),
         shadow_(live_look()),
         shown_(load_shown(options.model, options, site_,
@@ -126,8 +129,8 @@ class Viewer {
       canvas_ = std::make_unique<Canvas>(size, live_look());
       picture_ = std::make_unique<Picture>(size, Style::lit);
     }
-    const auto view =
-        tile_view(content_corners(site_.wall.tiles.front(), window_), state.eye_in_wall);
+    const Tile content = content_tile(size);
+    const auto view = tile_view(content.corners, state.eye_in_wall);
     shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
                       state.animation_time_s);
     const GpuScene* scenes[] = {&shown_.scene};
@@ -135,8 +138,11 @@ class Viewer {
     canvas_->begin();
     const Time began = std::chrono::steady_clock::now();
     statistics_.timer().begin();
-    const DrawCount count = view ? renderer_.draw(*view, scenes, {}, &shadow_) : DrawCount{};
+    const bool model = view && shows_model(state);
+    const DrawCount count = model ? renderer_.draw(*view, scenes, {}, &shadow_) : DrawCount{};
     canvas_->resolve(*picture_);
+    if (!shows_model(state)) patterns_.draw(state, content, {0, 0, size}, *picture_);
+    PatternPainter::draw_number(state, {0, 0, size}, *picture_);
     statistics_.timer().end();
     picture_->make_mipmaps();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -162,10 +168,20 @@ class Viewer {
   }
 
  private:
+  /// The window's content as a tile of its own.
+  Tile content_tile(SizePx size) const {
+    Tile tile = site_.wall.tiles.front();
+    tile.corners = content_corners(tile, window_);
+    tile.width_px = size.width;
+    tile.height_px = size.height;
+    return tile;
+  }
+
   const ViewOptions& options_;
   Window& window_;
   Site site_;
   SceneRenderer renderer_;
+  PatternPainter patterns_;
   WindowStatistics statistics_;
   ShadowMap shadow_;
   Shown shown_;
@@ -198,13 +214,18 @@ int view_as_picture(const ViewOptions& options) {
   Canvas canvas(kPicture, Look{});
   Picture picture(kPicture, Style::lit);
   const Vec3 eye = options.eye.value_or(site.viewer.default_eye_in_wall);
-  const auto view = tile_view(site.wall.tiles.front().corners, eye);
+  const Tile& tile = site.wall.tiles.front();
+  const FrameState state{.eye_in_wall = eye, .pattern = options.pattern};
+  const auto view = tile_view(tile.corners, eye);
   if (!view) throw Error({"is at or behind the screen's plane", "--eye", "give an eye with z > 0"});
   const GpuScene* scenes[] = {&shown.scene};
   shadow.update(scenes, shadow_region(site.wall));
   canvas.begin();
   renderer.draw(*view, scenes, {}, &shadow);
   canvas.resolve(picture);
+  if (!shows_model(state))
+    PatternPainter(site.wall, Style::lit).draw(state, tile, {0, 0, kPicture}, picture);
+  PatternPainter::draw_number(state, {0, 0, kPicture}, picture);
   make_folder(options.out);
   write_png(picture.read(), options.out + "/view.png");
   log_info("view", "there is no display, so one picture was drawn");
@@ -226,7 +247,8 @@ int view(const ViewOptions& options) {
   LoopOptions loop{.rate_hz = viewer.site().rate_hz,
                    .display_latency = from_seconds(1e-3 * viewer.site().viewer.display_latency_ms),
                    .length = {},
-                   .navigation = viewer.navigation()};
+                   .navigation = viewer.navigation(),
+                   .pattern = options.pattern};
   if (options.seconds) loop.length = from_seconds(*options.seconds);
   const LoopResult result =
       run_frames(loop, clock, *eyes,
@@ -276,6 +298,7 @@ void add_view(CLI::App& parent, Action& chosen) {
       ->check(between(20.0, 50000.0))
       ->type_name("WIDTH HEIGHT");
   add_place(*app, options->place);
+  add_pattern_choice(*app, options->pattern);
   app->add_flag("--fullscreen", options->fullscreen, "Cover the screen");
   app->add_option("--seconds", options->seconds, "End by itself")->check(between(0.05, 1e6));
   app->add_option("--seed", options->seed, "Of the simulated walk");

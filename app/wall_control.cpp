@@ -1,5 +1,5 @@
-// vindu show, mode, goto, pattern, overlay, stop: asked of the master of a running wall, which says
-// whether it did.
+// vindu show, mode, goto, pattern, blank, overlay, stop: asked of the master of a running wall,
+// which says whether it did.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -91,14 +91,42 @@ void add_goto(CLI::App& parent, Action& chosen) {
 
 void add_pattern(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<ControlCommand>();
-  CLI::App* app = parent.add_subcommand("pattern", "A test picture over a running wall");
-  app->add_option("PATTERN", command->argument,
-                  "counter: every frame's number on every tile; none: nothing")
-      ->required();
+  CLI::App* app = parent.add_subcommand("pattern", "A test picture on a running wall");
+  app->add_option("PATTERN", command->argument, "Which one; see below")
+      ->required()
+      ->check(CLI::IsMember(pattern_names()));
   add_common(*app, *command);
-  app->footer("\nExamples:\n  vindu pattern counter\n  vindu pattern none --wall wall.toml\n");
+  app->footer(
+      "\n"
+      "  none     the model again\n"
+      "  grid     metres of the wall over all tiles, circles, the outermost pixels of each tile\n"
+      "  names    each tile's name, host, pixels and mount; which way is up, which corner is "
+      "lower left\n"
+      "  seams    lines over all seams: where a tile is off by a pixel, they break\n"
+      "  ramps    levels of grey, red, green and blue, near black and near white\n"
+      "  counter  the model, and over it each frame's number, as vindu tile --shown reads it\n"
+      "  bar      bars that cross the whole wall in 4 s, and the number: tearing, late tiles\n"
+      "  eye      the wall, each tile's frustum and the eye, from above and from the side\n"
+      "\nAlso: vindu render --pattern grid, and --pattern of master, launch, view, simulate.\n"
+      "\nExamples:\n"
+      "  vindu pattern grid\n"
+      "  vindu pattern none --wall wall.toml\n");
   app->callback([command, &chosen] {
     chosen = [command] { return ask(*command, Verb::pattern, command->argument); };
+  });
+}
+
+void add_blank(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ControlCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "blank", "A running wall goes dark, all tiles in one frame; what it showed goes on behind");
+  app->add_option("SWITCH", command->argument, "on or off")
+      ->required()
+      ->check(CLI::IsMember({"on", "off"}));
+  add_common(*app, *command);
+  app->footer("\nExamples:\n  vindu blank on\n  vindu blank off --wall wall.toml\n");
+  app->callback([command, &chosen] {
+    chosen = [command] { return ask(*command, Verb::blank, command->argument); };
   });
 }
 

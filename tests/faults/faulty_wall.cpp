@@ -52,7 +52,7 @@ void FaultyWall::start(std::size_t index) {
   const std::string& name = member.host.name();
   std::vector<std::string> words = {options_.program};
   if (index == kMaster) {
-    words.insert(words.end(), {"master", "--mode", "loop", "--counter", "--json"});
+    words.insert(words.end(), {"master", "--mode", "loop", "--pattern", "counter", "--json"});
     if (!options_.model.empty()) words.push_back(options_.model);
   } else {
     member.shown.emplace_back(

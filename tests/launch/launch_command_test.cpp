@@ -66,6 +66,8 @@ TEST_F(LaunchCommand, LightsAWallThatConsolesSpeakTo) {
               AllOf(HasSubstr("\"good\": true"), HasSubstr("\"tile\": \"tile-1-0\"")));
   EXPECT_EQ(ask({"pattern", "counter"}).exit_code, 0);
   EXPECT_THAT(ask({"pattern", "no-such"}).err, HasSubstr("no-such"));
+  EXPECT_EQ(ask({"pattern", "none"}).exit_code, 0);
+  EXPECT_EQ(ask({"blank", "perhaps"}).exit_code, 2);
   EXPECT_EQ(ask({"overlay", "on"}).exit_code, 0);
   EXPECT_EQ(ask({"overlay", "perhaps"}).exit_code, 2);
   EXPECT_THAT(ask({"show", path("no.glb")}).err, HasSubstr("no.glb"));
@@ -76,10 +78,12 @@ TEST_F(LaunchCommand, LightsAWallThatConsolesSpeakTo) {
 }
 
 TEST_F(LaunchCommand, SaysWhatItWouldRun) {
-  const ProcessResult result = ask({"launch", "a b.glb", "--dry-run", "--tiles-per-process", "2"});
+  const ProcessResult result =
+      ask({"launch", "a b.glb", "--dry-run", "--tiles-per-process", "2", "--pattern", "grid"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("vindu master --wall " + wall_ + " 'a b.glb'\n"),
-                                HasSubstr("vindu tile tile-0-0 tile-1-0 --wall " + wall_)));
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("vindu master --wall " + wall_ + " --pattern grid 'a b.glb'\n"),
+                    HasSubstr("vindu tile tile-0-0 tile-1-0 --wall " + wall_)));
 }
 
 TEST_F(LaunchCommand, FailsWithTheMaster) {

@@ -20,7 +20,7 @@ std::optional<Swap> parse(const std::string& line) {
   std::getline(words, swap.tile, ',');
   std::getline(words, swap.pixels, ',');
   std::getline(words, swap.eye_x_m, ',');
-  if (!(words >> swap.locked)) return std::nullopt;
+  if (char comma = 0; !(words >> swap.locked >> comma >> swap.mean_level)) return std::nullopt;
   if (time.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;  // header
   swap.time_ns = std::stoll(time);
   swap.frame = std::stoull(frame);

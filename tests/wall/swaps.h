@@ -16,6 +16,7 @@ struct Swap {
   std::string pixels;  ///< the number that the picture shows; empty: it cannot be read
   std::string eye_x_m;
   std::size_t locked = 0;  ///< tiles in the lock
+  double mean_level = 0;   ///< of all pixels, 0 to 255
 };
 
 /// The whole lines so far; none while there is no file.

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "tests/app/osc_bytes.h"
+#include "renderer/image.h"
 #include "tests/app/process.h"
 #include "tests/wall/children.h"
 #include "tests/wall/swaps.h"
@@ -78,8 +79,8 @@ class WallTest : public AppTest {
   Child start_tile(const std::string& tile) const { return start_tiles({tile}, tile + ".csv"); }
   Child start_master(const std::vector<std::string>& more = {},
                      const std::string& mode = "loop") const {
-    std::vector<std::string> words = {VINDU_PROGRAM, "master", small_model(), "--wall", wall_file_,
-                                      "--mode",      mode,     "--counter",   "--json"};
+    std::vector<std::string> words = {VINDU_PROGRAM, "master", small_model(), "--wall",  wall_file_,
+                                      "--mode",      mode,     "--pattern",   "counter", "--json"};
     words.insert(words.end(), more.begin(), more.end());
     return Child(words, path("master.log"));
   }
@@ -249,6 +250,59 @@ TEST_F(WallTest, ShowsItsFiguresWithoutHidingTheFramesNumber) {
   EXPECT_EQ(vindu({"overlay", "off", "--wall", wall_file_}).exit_code, 0);
   for (const std::string& file : files()) await_swaps(file, 20);
   expect_right(files());
+}
+
+/// Of a picture that vindu render made, as --shown has it.
+double mean_level_of(const std::string& file) {
+  const Image image = read_png(file);
+  double sum = 0;
+  for (const Rgba8& pixel : image.pixels) sum += pixel[0] + pixel[1] + pixel[2];
+  return sum / (3.0 * static_cast<double>(image.pixels.size()));
+}
+
+// What the pixels are is compared with what vindu render draws.
+TEST_F(WallTest, ShowsPatternsAndGoesBlankOnAllTilesInOneFrame) {
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  Child master = start_master();
+  for (const std::string& file : files()) await_swaps(file, 10);
+  const auto ask = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--wall", wall_file_});
+    return vindu(words);
+  };
+  const auto await_level = [&](double level) {
+    for (const std::string& file : files())
+      while (std::abs(swaps_in(path(file)).back().mean_level - level) > 1e-4)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  };
+  ASSERT_EQ(ask({"render", "--pattern", "ramps", "--scale", "0.1", "--out", path("out")}).exit_code,
+            0);
+  const double ramps = mean_level_of(path("out/tile-0-0.png"));
+  EXPECT_GT(ramps, 40);
+  EXPECT_EQ(ask({"pattern", "ramps"}).exit_code, 0);
+  await_level(ramps);
+  EXPECT_EQ(ask({"overlay", "on"}).exit_code, 0);
+  EXPECT_EQ(ask({"blank", "on"}).exit_code, 0);
+  await_level(0);
+  for (const std::string& file : files()) await_swaps(file, 10);  // the frames go on
+  EXPECT_THAT(ask({"status"}).out, HasSubstr(", pattern ramps, blank"));
+  EXPECT_EQ(ask({"overlay", "off"}).exit_code, 0);
+  EXPECT_EQ(ask({"blank", "off"}).exit_code, 0);
+  await_level(ramps);
+  EXPECT_THAT(ask({"status", "--json"}).out, HasSubstr(R"("pattern": "ramps", "blank": false)"));
+  EXPECT_EQ(ask({"stop"}).exit_code, 0);
+  EXPECT_EQ(master.end(), 0);
+
+  std::map<std::uint64_t, bool> black;  // by frame
+  int dark = 0;
+  for (const std::string& file : files())
+    for (const Swap& swap : swaps_in(path(file))) {
+      const bool is = swap.mean_level == 0;
+      EXPECT_EQ(black.try_emplace(swap.frame, is).first->second, is)
+          << swap.tile << " in frame " << swap.frame;
+      dark += is;
+    }
+  EXPECT_GE(dark, 4 * 10);
 }
 
 TEST_F(WallTest, TellsSystemdThatATileDrawsAndThatItStillDoes) {
