@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <future>
@@ -23,6 +24,7 @@
 #include "core/log.h"
 #include "core/sha256.h"
 #include "renderer/resources.h"
+#include "tracker/eye_rest.h"
 
 namespace vindu::app {
 namespace {
@@ -55,11 +57,29 @@ std::string path_for_tiles(const std::string& model, const Site& site) {
   return file.empty() ? "asset:show/show.glb" : std::filesystem::absolute(file).string();
 }
 
+/// What the master has to know of a scene.
+struct Stage {
+  Navigation navigation;
+  bool plays = false;  // it has an animation
+  Box3f box_in_scene;
+};
+
+/// Of the box, in wall.
+std::array<Vec3, 8> corners_of(const Stage& stage, const Navigation& navigation) {
+  std::array<Vec3, 8> corners;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner = stage.box_in_scene.corner(static_cast<Box3f::CornerType>(i)).cast<double>();
+    corners[static_cast<std::size_t>(i)] =
+        navigation.wall_from_scene * Vec3(navigation.scale * corner);
+  }
+  return corners;
+}
+
 /// Reads a model beside the frames that go on, to know that it can be read and where it stands.
 class Placing {
  public:
   struct Placed {
-    Navigation navigation;
+    Stage stage;
     std::string sha256;  // of the model
   };
 
@@ -68,7 +88,11 @@ class Placing {
     place_ = place;
     result_ = std::async(std::launch::async, [model, place, &site] {
       const std::string file = model_file(path_for_tiles(model, site));
-      return Placed{load_scene(model, place, site).navigation, sha256_of_file(file).value_or("")};
+      const LoadedScene loaded = load_scene(model, place, site);
+      return Placed{{.navigation = loaded.navigation,
+                     .plays = !loaded.scene.animations.empty(),
+                     .box_in_scene = bounds_in_scene(loaded.scene)},
+                    sha256_of_file(file).value_or("")};
     });
   }
   bool running() const { return result_.valid(); }
@@ -123,7 +147,7 @@ class MasterRun {
       follow_scenes();
       for (const CommandMessage& command : desk_.take()) answer(command);
       if (wall_.open() && now >= tick) {
-        begin(now);
+        on_tick(now);
         const auto passed = static_cast<std::int64_t>(seconds(now - start) * site_.rate_hz + 1e-6);
         tick = start + from_seconds(static_cast<double>(passed + 1) / site_.rate_hz);
       }
@@ -142,8 +166,8 @@ class MasterRun {
                                     Topic::command};
   static constexpr Topics kTells = {Topic::frame, Topic::scene, Topic::report, Topic::camera,
                                     Topic::answer};
-  static constexpr Topics kJoins = {Topic::ready, Topic::tile_status, Topic::presence,
-                                    Topic::command, Topic::pose, Topic::event};
+  static constexpr Topics kJoins = {Topic::ready,   Topic::tile_status, Topic::presence,
+                                    Topic::command, Topic::pose,        Topic::event};
 
   void set_mode(const std::string& mode, const std::string& path_file) {
     if (mode == "touch") {
@@ -172,11 +196,14 @@ class MasterRun {
     return std::make_unique<RemoteEye>(*bus_, site_, std::move(own));
   }
 
-  void begin(Time now) {
-    if (wall_.shown_scene() != navigated_scene_) {
-      navigated_scene_ = wall_.shown_scene();
-      if (const auto found = navigations_.find(navigated_scene_); found != navigations_.end())
-        navigation_ = found->second;
+  /// Finds the eye, and begins a frame where one is due.
+  void on_tick(Time now) {
+    if (wall_.shown_scene() != staged_scene_) {
+      staged_scene_ = wall_.shown_scene();
+      if (const auto found = stages_.find(staged_scene_); found != stages_.end()) {
+        stage_ = found->second;
+        navigation_ = stage_.navigation;
+      }
       glide_.reset();
     }
     glide(now);
@@ -184,19 +211,41 @@ class MasterRun {
     touch_.hear(now);
     const EyeNow eye = eyes_->at(now, photon);
     eye_in_wall_ = eye.eye_in_wall;
-    const FrameOrigin origin = origin_of(eye, now, clock_.now());
-    const FrameState state = {.photon_time = photon,
-                              .eye_in_wall = eye.eye_in_wall,
-                              .navigation = navigation_,
-                              .animation_time_s = seconds(now.time_since_epoch()),
-                              .mode = eye.mode,
-                              .overlays = overlays_,
-                              .pattern = pattern_,
-                              .blank = blank_};
-    wall_.begin(state, now, origin);
-    figures_.begun(origin, eye.pose ? std::optional(eye.pose->level) : std::nullopt);
+    const FrameState state = {
+        .photon_time = photon,
+        .eye_in_wall = at_rest(eye, now),
+        .navigation = navigation_,
+        .animation_time_s = stage_.plays ? seconds(now.time_since_epoch()) : 0,
+        .mode = eye.mode,
+        .overlays = overlays_,
+        .pattern = pattern_,
+        .blank = blank_};
+    if (wall_.due(state, now))
+      begin(state, eye, now);
+    else
+      figures_.rested();
     if (const auto report = figures_.report(now, wall_.tiles())) wall_.report(*report);
-    publish_camera(eye.eye_in_wall);
+  }
+
+  void begin(const FrameState& state, const EyeNow& eye, Time now) {
+    const FrameOrigin origin = origin_of(eye, now, clock_.now());
+    const bool drawn = !wall_.shows(state);
+    wall_.begin(state, now, origin);
+    figures_.begun(origin, {.level = eye.pose ? std::optional(eye.pose->level) : std::nullopt,
+                            .drawn = drawn});
+    publish_camera(state.eye_in_wall);
+  }
+
+  /// The eye to show: the tracked one, without its trembling.
+  Vec3 at_rest(const EyeNow& eye, Time now) {
+    const double slack_m =
+        eye_slack_m(site_.wall, eye.eye_in_wall, corners_of(stage_, navigation_));
+    double sigma_m = 0;
+    if (eye.pose && !site_.heads.empty())
+      sigma_m = eye_sigma_m(
+          *eye.pose,
+          site_.heads[static_cast<std::size_t>(eye.pose->object) % site_.heads.size()].eye_in_head);
+    return rest_.update(eye.eye_in_wall, slack_m, sigma_m, now);
   }
 
   void publish_camera(const Vec3& eye_in_wall) {
@@ -232,7 +281,7 @@ class MasterRun {
       const Placement place = placing_.place().value_or(Placement::fit);
       const std::uint64_t revision =
           wall_.show(path_for_tiles(placing_.model(), site_), placed.sha256, place);
-      navigations_[revision] = placed.navigation;
+      stages_[revision] = placed.stage;
       reply(asked_scene_, true, "");
     } catch (const Error& error) {
       if (asked_scene_.request == 0) throw;
@@ -332,9 +381,11 @@ class MasterRun {
   EyeSource* eyes_ = nullptr;
   Placing placing_;
   CommandMessage asked_scene_;  // answered when it could be read; request 0: the first one
-  std::map<std::uint64_t, Navigation> navigations_;  // by scene
-  std::uint64_t navigated_scene_ = 0;
-  Navigation navigation_;
+  std::map<std::uint64_t, Stage> stages_;  // by scene
+  std::uint64_t staged_scene_ = 0;
+  Stage stage_;            // of the scene that is shown
+  Navigation navigation_;  // from where it stood first
+  EyeRest rest_;
   struct Glide {
     Vec3 from, to;  // translation of wall_from_scene
     Time start{};
@@ -368,7 +419,8 @@ void add_master(CLI::App& parent, Action& chosen) {
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
   add_place(*app, command->place);
-  app->add_option("--mode", command->mode, "track: the eye is tracked; touch: it follows a hand (vindu touch);\n"
+  app->add_option("--mode", command->mode,
+                  "track: the eye is tracked; touch: it follows a hand (vindu touch);\n"
                   "loop: it follows a path")
       ->check(CLI::IsMember({"track", "touch", "loop"}));
   app->add_option("--path", command->path_file, "Camera path of the mode loop")->type_name("FILE");

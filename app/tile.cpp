@@ -235,16 +235,21 @@ class TileRun {
 
   void draw(Time now) {
     frame_ = *tile_.to_draw();
-    if (prepared_ == frame_.scene_revision && prepared_ != 0) {
+    const bool another_scene = prepared_ == frame_.scene_revision && prepared_ != 0;
+    if (another_scene) {
       painter_->renderer().show_prepared();
       has_scene_ = true;
       failed_.clear();
       prepared_ = 0;
     }
     if (failed_revision_ == frame_.scene_revision && !failed_.empty()) has_scene_ = false;
-    painter_->draw(frame_.newest, has_scene_ ? std::vector<std::string>{} : notice_lines(now));
+    std::vector<std::string> words = has_scene_ ? std::vector<std::string>{} : notice_lines(now);
+    if (another_scene || words != drawn_words_ || !tile_.drawn_already()) {
+      painter_->draw(frame_.newest, words);
+      tile_.measured(painter_->statistics().figures());
+      drawn_words_ = std::move(words);
+    }
     tile_.drew(frame_.newest.number, now, clock_.now());
-    tile_.measured(painter_->statistics().figures());
   }
 
   void show() {
@@ -312,6 +317,7 @@ class TileRun {
   std::uint64_t prepared_ = 0, failed_revision_ = 0;
   std::string failed_;
   bool has_scene_ = false;
+  std::vector<std::string> drawn_words_;  // in place of a scene
   Time noticed_{}, said_alive_{};
 };
 

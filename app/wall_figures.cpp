@@ -36,9 +36,10 @@ WallFigures::WallFigures(const std::vector<std::string>& names, Duration display
   if (!csv_file.empty()) csv_.emplace(csv_file);
 }
 
-void WallFigures::begun(const FrameOrigin& origin, std::optional<TrackingLevel> level) {
+void WallFigures::begun(const FrameOrigin& origin, const Kind& kind) {
   constexpr std::size_t kKept = 256;
-  begun_[++frames_] = {origin, level};
+  begun_[++frames_] = {origin, kind};
+  undrawn_ += !kind.drawn;
   if (begun_.size() > kKept) forget_before(std::next(begun_.begin())->first);
   if (last_begun_) keep(gaps_ms_, milliseconds(origin.tick_time - *last_begun_));
   last_begun_ = origin.tick_time;
@@ -47,7 +48,7 @@ void WallFigures::begun(const FrameOrigin& origin, std::optional<TrackingLevel> 
          milliseconds(origin.tick_time - *origin.capture_time));
   keep(parts_ms_[static_cast<std::size_t>(Part::solve)],
        milliseconds(origin.eye_time - origin.tick_time));
-  reports_.follows(level);
+  reports_.follows(kind.level);
 }
 
 void WallFigures::forget_before(std::uint64_t number) {
@@ -59,7 +60,7 @@ void WallFigures::forget_before(std::uint64_t number) {
 
 void WallFigures::write(std::uint64_t number, const Begun& begun, const FrameSkew* skew) {
   if (!csv_) return;
-  FrameLine line{.number = number, .tick = begun.origin.tick_time, .level = begun.level};
+  FrameLine line{.number = number, .tick = begun.origin.tick_time, .level = begun.kind.level};
   if (skew) {
     line.tiles = skew->swaps.size();
     line.last_tile = skew->last().tile;
@@ -77,8 +78,11 @@ void WallFigures::add(const FrameSkew& skew, Time now) {
   if (skew.swaps.size() >= 2) keep(skews_ms_, milliseconds(skew.skew()));
   forget_before(skew.number);
   const FrameOrigin origin = found->second.origin;
+  const bool drawn = found->second.kind.drawn;
   write(skew.number, found->second, &skew);
   begun_.erase(found);
+  reports_.add(skew, origin, display_, now);
+  if (!drawn) return;
   const double light_s = seconds(skew.last().shown - origin.tick_time);
   to_light_s_ += 0.1 * (std::clamp(light_s, 0.0, 1.0) - to_light_s_);
   keep(to_light_ms_, 1e3 * light_s);
@@ -86,7 +90,6 @@ void WallFigures::add(const FrameSkew& skew, Time now) {
   for (auto part = static_cast<std::size_t>(Part::publish); part < kParts; ++part)
     keep(parts_ms_[part], milliseconds(parts.durations[part]));
   if (parts.tracked) keep(to_photon_ms_, milliseconds(parts.motion_to_photon()));
-  reports_.add(skew, origin, display_, now);
 }
 
 void WallFigures::add(const MemberEvent& event) {
@@ -110,6 +113,8 @@ std::string WallFigures::table() const {
       frames_, seconds(length), static_cast<double>(frames_) / std::max(seconds(length), 1e-9),
       locked, tiles.size(), present, count(MemberChange::evicted), count(MemberChange::lost),
       count(MemberChange::restarted));
+  if (undrawn_ > 0)
+    text += fmt::format("  {} of them showed what was there and were not drawn\n", undrawn_);
   text += fmt::format("  {:<24}{:>9}{:>9}{:>9}\n", "", "p50", "p99", "max");
   text += row("between frames", gaps_ms_);
   for (int part = 0; part < kParts; ++part)
@@ -135,9 +140,10 @@ std::string WallFigures::json() const {
                   json_row("barrier", part(Part::barrier)), json_row("swap", part(Part::swap)),
                   json_row("display", part(Part::display)));
   std::string text = fmt::format(
-      "{{\"frames\":{},\"seconds\":{:.3f},\"evicted\":{},\"lost\":{},\"restarted\":{},"
+      "{{\"frames\":{},\"undrawn\":{},\"seconds\":{:.3f},\"evicted\":{},\"lost\":{},\"restarted\":{"
+      "},"
       "\"milliseconds\":{{{},{},{},{},{},{},{}}},\"tiles\":{{",
-      frames_, seconds(length), count(MemberChange::evicted), count(MemberChange::lost),
+      frames_, undrawn_, seconds(length), count(MemberChange::evicted), count(MemberChange::lost),
       count(MemberChange::restarted), json_row("between_frames", gaps_ms_),
       json_row("capture_to_tick", part(Part::capture_age)), json_row("solve", part(Part::solve)),
       parts, json_row("tick_to_last_swap", to_light_ms_),

@@ -23,8 +23,14 @@ class WallFigures {
   /// written.
   WallFigures(const std::vector<std::string>& names, Duration display, const std::string& csv_file);
 
-  /// `level`: of the head that the eye is of; empty where none is tracked.
-  void begun(const FrameOrigin& origin, std::optional<TrackingLevel> level);
+  /// What a frame is of.
+  struct Kind {
+    std::optional<TrackingLevel> level{};  ///< of the head that the eye is of; empty: none is
+    bool drawn = true;                     ///< else it shows what was shown before
+  };
+  void begun(const FrameOrigin& origin, const Kind& kind);
+  /// A tick began no frame, since nothing had changed.
+  void rested() { last_begun_.reset(); }
   void add(const FrameSkew& skew, Time now);
   void add(const MemberEvent& event);
   /// What to tell everybody now, if anything.
@@ -45,7 +51,7 @@ class WallFigures {
  private:
   struct Begun {
     FrameOrigin origin{};
-    std::optional<TrackingLevel> level{};
+    Kind kind{};
   };
 
   void forget_before(std::uint64_t number);
@@ -55,6 +61,7 @@ class WallFigures {
   std::optional<FrameCsv> csv_;
   WallReports reports_;
   std::uint64_t frames_ = 0;
+  std::uint64_t undrawn_ = 0;
   std::map<std::uint64_t, Begun> begun_;  // frames whose swaps are not known yet
   double to_light_s_ = 1 / 60.0;
   std::vector<double> skews_ms_, to_light_ms_, to_photon_ms_, gaps_ms_;

@@ -33,10 +33,10 @@ Barrier::Barrier(std::uint64_t epoch, std::span<const std::string> tiles,
 void Barrier::begin(FrameState state, std::uint64_t scene_revision, Time now) {
   assert(open());
   state.number = newest_.number + 1;
+  begun(state.number) = {.time = now, .drawn = !same_picture(state, scene_revision)};
   newest_ = state;
   scene_revision_ = scene_revision;
   present_time_.reset();
-  begun_[state.number % kBegun] = now;
   for (auto& [tile, member] : members_) {
     if (!member.caught_up || member.active) continue;
     member.active = true;
@@ -44,10 +44,17 @@ void Barrier::begin(FrameState state, std::uint64_t scene_revision, Time now) {
   }
 }
 
+bool Barrier::same_picture(const FrameState& state, std::uint64_t scene_revision) const {
+  FrameState next = state;
+  next.number = newest_.number + 1;
+  return newest_.number != 0 && scene_revision == scene_revision_ &&
+         content_hash_of(next) == content_hash_of(newest_);
+}
+
 std::optional<Duration> Barrier::age(std::uint64_t number, Time now) const {
   if (number == 0 || number > newest_.number || number + kBegun <= newest_.number)
     return std::nullopt;
-  return now - begun_[number % kBegun];
+  return now - begun(number).time;
 }
 
 bool Barrier::hear(const ReadyMessage& ready, Time now) {
@@ -65,7 +72,8 @@ bool Barrier::hear(const ReadyMessage& ready, Time now) {
     // meanwhile: software renderers take longer for a frame than the wall waits between two.
     const auto took = age(ready.number, now);
     member.caught_up = took && *took <= patience() && !member.busy;
-    if (member.caught_up) usual_.add(*took);
+    // What is not drawn says nothing of how long drawing takes.
+    if (member.caught_up && begun(ready.number).drawn) usual_.add(*took);
   }
   return ready.presented < ready.number && ready.number <= released_;
 }
@@ -95,7 +103,7 @@ Duration Barrier::patience() const {
 
 Time Barrier::deadline() const {
   if (open() || active() == 0) return Time::max();
-  return begun_[newest_.number % kBegun] + patience();
+  return begun(newest_.number).time + patience();
 }
 
 bool Barrier::settle(Time now) {
@@ -108,7 +116,7 @@ bool Barrier::settle(Time now) {
   for (auto& entry : members_) {
     if (!holds_up(entry) || options_.lock == FrameLock::free) continue;
     entry.second.active = entry.second.caught_up = false;
-    note(entry.first, MemberChange::evicted, now - begun_[newest_.number % kBegun]);
+    note(entry.first, MemberChange::evicted, now - begun(newest_.number).time);
   }
   release(now);
   return true;

@@ -67,6 +67,9 @@ class Barrier {
   /// Asserts open().
   void begin(FrameState state, std::uint64_t scene_revision, Time now);
 
+  /// Whether a frame of that state would show what the newest does: tiles need not draw it.
+  bool same_picture(const FrameState& state, std::uint64_t scene_revision) const;
+
   /// Returns whether the tile waits for a release that it seems not to have heard: the message
   /// should go out again.
   bool hear(const ReadyMessage& ready, Time now);
@@ -102,7 +105,13 @@ class Barrier {
     bool caught_up = false;         // active from the next frame on
     bool busy = false;              // never caught up
   };
+  struct Begun {
+    Time time{};
+    bool drawn = true;  // else it is the picture before
+  };
 
+  Begun& begun(std::uint64_t number) { return begun_[number % kBegun]; }
+  const Begun& begun(std::uint64_t number) const { return begun_[number % kBegun]; }
   std::optional<Duration> age(std::uint64_t number, Time now) const;
   void note(const std::string& tile, MemberChange change, Duration waited = {});
   void release(Time now);
@@ -116,7 +125,7 @@ class Barrier {
   std::uint64_t scene_revision_ = 0;
   std::uint64_t released_ = 0;
   std::optional<Time> present_time_;
-  std::array<Time, kBegun> begun_{};  // by number modulo kBegun
+  std::array<Begun, kBegun> begun_{};  // by number modulo kBegun
   UsualTime usual_;
   std::vector<MemberEvent> events_;
 };

@@ -26,6 +26,7 @@ void TileBarrier::hear(const FrameMessage& message, Time now) {
     heard_ = {.epoch = message.epoch, .newest = {.number = 0}};
     offset_ = {};
     drawn_ = presented_ = 0;
+    drawn_content_.reset();
     presented_parts_ = {};
   }
   sent_ = message.sent_time;
@@ -42,16 +43,22 @@ const FrameMessage* TileBarrier::to_draw() const {
   return heard_.newest.number > drawn_ ? &heard_ : nullptr;
 }
 
+bool TileBarrier::drawn_already() const { return drawn_content_ == content(); }
+
 void TileBarrier::drew(std::uint64_t number, Time started, Time now) {
   if (drawn_ != 0) missed_ += number - drawn_ - 1;
   drawn_ = number;
+  drawn_content_ = content();
   draw_time_ = now - started;
   drew_ = now;
   drawn_origin_ = heard_.origin;
   pickup_ = started - heard_newest_;
 }
 
-void TileBarrier::spoiled() { drawn_ = presented_; }
+void TileBarrier::spoiled() {
+  drawn_ = presented_;
+  drawn_content_.reset();
+}
 
 std::optional<Time> TileBarrier::show_time(Time now) const {
   if (drawn_ <= presented_ || drawn_ > heard_.released) return std::nullopt;

@@ -23,8 +23,10 @@ class TileBarrier {
 
   /// The newest frame and its scene, until it was drawn.
   const FrameMessage* to_draw() const;
+  /// Whether that looks like what was drawn last, so that only drew() is to be called.
+  bool drawn_already() const;
   void drew(std::uint64_t number, Time started, Time now);
-  /// Something else was drawn over a frame that was not shown yet: it has to be drawn again.
+  /// Something else was drawn over what was drawn: that has to be drawn again.
   void spoiled();
 
   /// When the drawn frame is to be shown; empty while it is not released, or was shown already.
@@ -50,7 +52,14 @@ class TileBarrier {
   Duration silence(Time now) const { return now - received_; }
 
  private:
+  /// What a picture is of.
+  struct Content {
+    std::uint64_t hash = 0, scene_revision = 0;
+    bool operator==(const Content&) const = default;
+  };
+
   bool follows(const FrameMessage& message, Time now) const;
+  Content content() const { return {content_hash_of(heard_.newest), heard_.scene_revision}; }
 
   std::uint64_t incarnation_;
   FrameMessage heard_;        // the newest
@@ -58,6 +67,7 @@ class TileBarrier {
   OneWayOffset offset_;
   std::uint64_t drawn_ = 0, presented_ = 0, missed_ = 0;
   Time presented_time_{};
+  std::optional<Content> drawn_content_;
   Duration draw_time_{};
   Time heard_newest_{}, drew_{};  // heard of the newest frame; was done with the drawn one
   FrameOrigin drawn_origin_;

@@ -1,6 +1,7 @@
 #include "cluster/wall_master.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/log.h"
 
@@ -9,6 +10,12 @@ namespace {
 
 /// A frame message that is not heard costs a tile this long.
 constexpr Duration kRepeat = std::chrono::milliseconds(4);
+/// While nothing changes: how often the newest frame is said again, for who has just started; and
+/// how often there is a new one.
+constexpr Duration kHeartbeat = std::chrono::milliseconds(100);
+constexpr Duration kStillFrame = std::chrono::milliseconds(500);
+/// Every tick begins a frame for so long after a change.
+constexpr Duration kSettling = std::chrono::milliseconds(500);
 
 }  // namespace
 
@@ -22,20 +29,31 @@ WallMaster::WallMaster(Bus& bus, Options options)
 }
 
 void WallMaster::poll(Time now) {
-  for (const Presence& presence : bus_.take<Presence>()) hear(presence);
-  for (const StatusMessage& status : bus_.take<StatusMessage>()) hear(status);
+  for (const Presence& presence : bus_.take<Presence>()) hear(presence, now);
+  for (const StatusMessage& status : bus_.take<StatusMessage>()) hear(status, now);
   for (const ReadyMessage& ready : bus_.take<ReadyMessage>()) hear(ready, now);
-  if (barrier_.settle(now) || (!barrier_.open() && now - published_ >= kRepeat)) publish(now);
+  if (barrier_.settle(now) || (newest_ > 0 && now >= repeat_time())) publish(now);
   for (auto& [tile, report] : tiles_) report.locked = barrier_.takes_part(tile);
+  if (std::exchange(active_, barrier_.active()) != barrier_.active()) stirred_ = now;
   change_scene();
 }
 
+Time WallMaster::repeat_time() const {
+  return published_ + (barrier_.open() ? kHeartbeat : kRepeat);
+}
+
 Time WallMaster::wake_time() const {
-  return barrier_.open() ? Time::max() : std::min(barrier_.deadline(), published_ + kRepeat);
+  return newest_ == 0 ? Time::max() : std::min(barrier_.deadline(), repeat_time());
+}
+
+bool WallMaster::due(const FrameState& state, Time now) const {
+  return now - stirred_ < kSettling || now - begun_ >= kStillFrame || !shows(state);
 }
 
 void WallMaster::begin(const FrameState& state, Time now, const FrameOrigin& origin) {
   origin_ = origin;
+  if (!shows(state)) stirred_ = now;
+  begun_ = now;
   barrier_.begin(state, shown_scene_, now);
   ++newest_;
   barrier_.settle(now);  // with nobody to wait for
@@ -58,6 +76,7 @@ void WallMaster::hear(const ReadyMessage& ready, Time now) {
   const auto found = tiles_.find(ready.tile);
   if (found == tiles_.end() || ready.epoch != options_.epoch) return;
   TileReport& report = found->second;
+  if (!report.locked) stirred_ = now;  // it wants to come in
   report.draw_time = ready.draw_time;
   if (report.status && report.status->host == options_.host) {
     report.clock = OffsetEstimate{};
@@ -97,16 +116,20 @@ std::vector<FrameSkew> WallMaster::take_skews() {
   return skews;
 }
 
-void WallMaster::hear(const StatusMessage& status) {
+void WallMaster::hear(const StatusMessage& status, Time now) {
   const auto found = tiles_.find(status.tile);
   if (found == tiles_.end()) return log_warning(status.tile, "is no tile of this wall: left out");
+  const std::optional<StatusMessage>& before = found->second.status;
+  if (!before || before->state != status.state || before->scene_revision != status.scene_revision)
+    stirred_ = now;
   found->second.status = status;
   barrier_.set_busy(status.tile, status.state == TileState::loading);
 }
 
-void WallMaster::hear(const Presence& presence) {
+void WallMaster::hear(const Presence& presence, Time now) {
   const auto found = tiles_.find(presence.who.name);
   if (presence.who.role != Role::tile || found == tiles_.end()) return;
+  stirred_ = now;
   const bool gone =
       presence.change == PresenceChange::silent || presence.change == PresenceChange::left;
   found->second.present = !gone && presence.change != PresenceChange::other_version;

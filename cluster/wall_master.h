@@ -62,6 +62,12 @@ class WallMaster {
 
   /// Whether the next frame may begin.
   bool open() const { return barrier_.open(); }
+  /// Whether a frame of that state would look as the newest does.
+  bool shows(const FrameState& state) const { return barrier_.same_picture(state, shown_scene_); }
+  /// Whether a frame of that state is to begin now: it looks otherwise than the newest, or tiles
+  /// are coming and going, or the last one is half a second ago, so that who is late gets in and
+  /// who is gone is noticed.
+  bool due(const FrameState& state, Time now) const;
   void begin(const FrameState& state, Time now, const FrameOrigin& origin = {});
 
   /// Tiles load it, and change to it in one frame when none is left that still loads. A scene that
@@ -83,11 +89,12 @@ class WallMaster {
 
  private:
   void hear(const ReadyMessage& ready, Time now);
-  void hear(const StatusMessage& status);
-  void hear(const Presence& presence);
+  void hear(const StatusMessage& status, Time now);
+  void hear(const Presence& presence, Time now);
   void note_swap(const ReadyMessage& ready, TileReport& report);
   void change_scene();
   void publish(Time now);
+  Time repeat_time() const;
 
   Bus& bus_;
   Options options_;
@@ -100,7 +107,9 @@ class WallMaster {
   std::uint64_t asked_scene_, shown_scene_;   // from the epoch on: no two masters' are alike
   std::uint64_t newest_ = 0;
   FrameOrigin origin_;  // of the newest
-  Time published_{};
+  Time published_{}, begun_{};
+  Time stirred_{};          // when something last changed: what is seen, or who sees it
+  std::size_t active_ = 0;  // when it was last looked at
 };
 
 }  // namespace vindu

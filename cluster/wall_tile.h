@@ -34,9 +34,11 @@ class WallTile {
   Next next(Time now, bool surface_free) const;
 
   const FrameMessage* to_draw() const { return barrier_.to_draw(); }
+  /// Whether that looks like what was drawn last: nothing but drew() is to be called for it.
+  bool drawn_already() const { return barrier_.drawn_already(); }
   void drew(std::uint64_t number, Time started, Time now);
   void showed(Time began, Time now);
-  /// Something else was drawn over a frame that was not shown yet: it comes again.
+  /// Something else was drawn over what was drawn: the next frame is drawn, whatever it shows.
   void spoiled() { barrier_.spoiled(); }
   /// Of the frame that was shown last; `display`: from the swap to the light.
   std::optional<FrameParts> presented_frame(Duration display) const {

@@ -21,6 +21,7 @@ void mark_evicted(TileNow& tile) {
   const bool evicted = tile.report && tile.report->locked == 0 && tile.report->evictions > 0;
   tile.state = evicted ? kEvicted : name_of(TileState::ready);
 }
+constexpr auto kStill = std::chrono::seconds(1);
 
 /// Tiles that differ in figures alone.
 struct Group {
@@ -109,8 +110,9 @@ std::string master_line(const WallNow& wall) {
   if (!wall.master) return "no master\n";
   std::string text = "master on " + wall.master->host;
   if (wall.frame == 0) return text + ", no frame yet\n";
-  text += fmt::format(": frame {}, {:.1f} fps, {} of {} tiles in the frame lock", wall.frame,
-                      wall.frames_per_s, wall.active_tiles, wall.tiles.size());
+  text += fmt::format(": frame {}, {:.1f} fps{}, {} of {} tiles in the frame lock", wall.frame,
+                      wall.frames_per_s, wall.still ? " since nothing changes" : "",
+                      wall.active_tiles, wall.tiles.size());
   if (wall.report && wall.report->frames.tracked)
     text += fmt::format(", eye {}", name_of(wall.report->level));
   if (wall.pattern != Pattern::none) text += fmt::format(", pattern {}", name_of(wall.pattern));
@@ -192,6 +194,9 @@ void WallView::hear(const FrameMessage& frame, Time now) {
   now_.pattern = frame.newest.pattern;
   now_.blank = frame.newest.blank;
   now_.active_tiles = frame.active_tiles;
+  const std::pair seen(content_hash_of(frame.newest), frame.scene_revision);
+  if (std::exchange(seen_, seen) != seen) changed_ = now;
+  now_.still = now - changed_ >= kStill;
   beats_.push_back({now, frame.newest.number});
   while (now - beats_.front().heard > kBeats) beats_.pop_front();
   const double passed_s = seconds(now - beats_.front().heard);
@@ -222,7 +227,7 @@ std::string summary_of(const WallNow& wall) {
   for (const TileNow& tile : wall.tiles) ++counts[tile.state];
   std::string text;
   for (const auto& [state, count] : counts) text += fmt::format("{} {}, ", count, state);
-  return text + fmt::format("{:.1f} fps", wall.frames_per_s);
+  return text + fmt::format("{:.1f} fps{}", wall.frames_per_s, wall.still ? ", still" : "");
 }
 
 }  // namespace vindu

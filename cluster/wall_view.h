@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cluster/bus.h"
@@ -30,6 +31,7 @@ struct WallNow {
   Pattern pattern = Pattern::none;        ///< of that frame
   bool blank = false;                     ///< the same
   double frames_per_s = 0;                ///< over the last seconds
+  bool still = false;                     ///< what is seen has not changed for a second
   std::uint32_t active_tiles = 0;         ///< in the frame lock
   std::optional<ReportMessage> report{};  ///< the master's newest about the whole wall
   std::vector<TileNow> tiles{};           ///< in the wall file's order
@@ -69,7 +71,9 @@ class WallView {
 
   Participant self_;
   WallNow now_;
-  std::deque<Beat> beats_;  // of the last seconds, of one epoch
+  std::deque<Beat> beats_;                          // of the last seconds, of one epoch
+  std::pair<std::uint64_t, std::uint64_t> seen_{};  // hash and scene of the newest frame
+  Time changed_{};                                  // when that was heard first
 };
 
 /// A table with a line for each kind of tile, equal ones folded, and lines for what is missing.

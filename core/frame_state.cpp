@@ -17,6 +17,16 @@ class Fnv1a {
   void add(const Vec3& value) {
     for (const double part : value) add(part);
   }
+  void add_content(const FrameState& state) {
+    add(state.eye_in_wall);
+    for (const double part : state.navigation.wall_from_scene.rotation.coeffs()) add(part);
+    add(state.navigation.wall_from_scene.translation);
+    add(state.navigation.scale);
+    add(state.animation_time_s);
+    add(std::uint64_t{state.overlays});
+    add(static_cast<std::uint64_t>(state.pattern));
+    add(std::uint64_t{state.blank});
+  }
   std::uint64_t value() const { return hash_; }
 
  private:
@@ -29,15 +39,17 @@ std::uint64_t hash_of(const FrameState& state) {
   Fnv1a hash;
   hash.add(state.number);
   hash.add(static_cast<std::uint64_t>(state.photon_time.time_since_epoch().count()));
-  hash.add(state.eye_in_wall);
-  for (const double part : state.navigation.wall_from_scene.rotation.coeffs()) hash.add(part);
-  hash.add(state.navigation.wall_from_scene.translation);
-  hash.add(state.navigation.scale);
-  hash.add(state.animation_time_s);
   hash.add(static_cast<std::uint64_t>(state.mode));
-  hash.add(std::uint64_t{state.overlays});
-  hash.add(static_cast<std::uint64_t>(state.pattern));
-  hash.add(std::uint64_t{state.blank});
+  hash.add_content(state);
+  return hash.value();
+}
+
+std::uint64_t content_hash_of(const FrameState& state) {
+  Fnv1a hash;
+  hash.add_content(state);
+  const bool moves =
+      state.overlays != 0 || state.pattern == Pattern::counter || state.pattern == Pattern::bar;
+  if (moves && !state.blank) hash.add(state.number);
   return hash.value();
 }
 

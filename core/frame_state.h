@@ -50,4 +50,8 @@ inline bool shows_model(const FrameState& state) {
 /// frame.
 std::uint64_t hash_of(const FrameState& state);
 
+/// Of what can be seen of it: where this is equal, and the scene is, the picture is the same and
+/// need not be drawn again. Overlays, counters and bars show something else in every frame.
+std::uint64_t content_hash_of(const FrameState& state);
+
 }  // namespace vindu

@@ -113,6 +113,7 @@ class SimulatedTile {
   SimulatedBus bus;
   TileSpec spec;
   std::vector<Shown> shown;
+  int draws = 0;
 
   void start(std::uint64_t incarnation) {
     ++life_;
@@ -161,7 +162,9 @@ class SimulatedTile {
       }
       case WallTile::Next::draw: {
         const FrameMessage frame = *tile_->to_draw();
+        if (tile_->drawn_already()) return drew(frame, now, life_);
         busy_ = true;
+        ++draws;
         const Duration draw =
             from_seconds(1e-3 * (spec.draw_ms + world_.uniform(0, spec.draw_jitter_ms)));
         world_.after(draw, [this, frame, now, life = life_] { drew(frame, now, life); });
@@ -226,6 +229,7 @@ class SimulatedWall {
   std::map<std::uint64_t, Time> ticks;      // when it began each
   std::vector<MemberEvent> events;
   std::vector<FrameSkew> skews;
+  std::optional<double> still_eye_x_m;  // of all frames from now on
 
   WallMaster& master() { return *master_; }
 
@@ -264,17 +268,23 @@ class SimulatedWall {
     });
   }
 
+  void begin(Time now) {
+    const double x_m = still_eye_x_m.value_or(world.uniform(-1, 1));
+    const FrameState state{.eye_in_wall = Vec3(x_m, 0, 2)};
+    if (!master_->due(state, now)) return;
+    eye_x_m[++begun_] = x_m;
+    ticks[begun_] = now;
+    master_->begin(
+        state, now,
+        {.capture_time = now - std::chrono::milliseconds(7), .tick_time = now, .eye_time = now});
+  }
+
   void step() {
     if (!master_) return;
     const Time now = world.now();
     master_->poll(now);
     if (master_->open() && now >= start_ + from_seconds(static_cast<double>(tick_due_) / 60)) {
-      ++begun_;
-      eye_x_m[begun_] = world.uniform(-1, 1);
-      ticks[begun_] = now;
-      master_->begin(
-          {.number = 0, .eye_in_wall = Vec3(eye_x_m[begun_], 0, 2)}, now,
-          {.capture_time = now - std::chrono::milliseconds(7), .tick_time = now, .eye_time = now});
+      begin(now);
       tick_due_ = static_cast<std::int64_t>(seconds(now - start_) * 60 + 1e-6) + 1;
     }
     for (MemberEvent& event : master_->take_events()) events.push_back(event);

@@ -48,6 +48,45 @@ TEST(FrameHash, ChangesWithEveryField) {
   }
 }
 
+TEST(ContentHash, IsThatOfWhatCanBeSeen) {
+  FrameState same = some_state();
+  same.number += 1;
+  same.photon_time += std::chrono::seconds(1);
+  same.mode = Mode::loop;
+  EXPECT_EQ(content_hash_of(same), content_hash_of(some_state()));
+  const std::vector<std::function<void(FrameState&)>> changes = {
+      [](FrameState& state) { state.eye_in_wall.x() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.rotation.w() += 1e-9; },
+      [](FrameState& state) { state.navigation.wall_from_scene.translation.z() += 1e-9; },
+      [](FrameState& state) { state.navigation.scale += 1e-9; },
+      [](FrameState& state) { state.animation_time_s += 1e-9; },
+      [](FrameState& state) { state.overlays = kStatistics; },
+      [](FrameState& state) { state.pattern = Pattern::grid; },
+      [](FrameState& state) { state.blank = true; }};
+  std::set<std::uint64_t> hashes = {content_hash_of(some_state())};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    FrameState changed = some_state();
+    changes[i](changed);
+    EXPECT_TRUE(hashes.insert(content_hash_of(changed)).second) << "change " << i;
+  }
+}
+
+TEST(ContentHash, DiffersInEveryFrameThatShowsItsFiguresUnlessItIsBlank) {
+  const std::vector<std::function<void(FrameState&)>> shows = {
+      [](FrameState& state) { state.overlays = kStatistics; },
+      [](FrameState& state) { state.pattern = Pattern::counter; },
+      [](FrameState& state) { state.pattern = Pattern::bar; }};
+  for (const auto& show : shows) {
+    FrameState one = some_state();
+    show(one);
+    FrameState next = one;
+    next.number += 1;
+    EXPECT_NE(content_hash_of(one), content_hash_of(next));
+    one.blank = next.blank = true;
+    EXPECT_EQ(content_hash_of(one), content_hash_of(next));
+  }
+}
+
 TEST(FrameHash, TellsExchangedCoordinatesApart) {
   FrameState one = some_state(), other = some_state();
   one.eye_in_wall = {1, 2, 3};

@@ -13,8 +13,8 @@
 #include <set>
 #include <thread>
 
-#include "tests/app/osc_bytes.h"
 #include "renderer/image.h"
+#include "tests/app/osc_bytes.h"
 #include "tests/app/process.h"
 #include "tests/wall/children.h"
 #include "tests/wall/swaps.h"
@@ -127,6 +127,50 @@ TEST_F(WallTest, ShowsTheSameFramesOnAllTilesAndTheirPixelsSaySo) {
     tile.send(SIGTERM);
     EXPECT_EQ(tile.end(), 0);
   }
+}
+
+/// Of these swaps; without two of them none.
+double median_gap_s(std::vector<Swap> swaps) {
+  std::vector<double> gaps_s;
+  for (std::size_t i = 1; i < swaps.size(); ++i)
+    gaps_s.push_back(1e-9 * static_cast<double>(swaps[i].time_ns - swaps[i - 1].time_ns));
+  if (gaps_s.empty()) return 0;
+  std::ranges::sort(gaps_s);
+  return gaps_s[gaps_s.size() / 2];
+}
+
+// Nobody is tracked, so the eye is the default one. A busy machine makes gaps longer, never
+// shorter.
+TEST_F(WallTest, RestsWhileNothingChangesAndGoesOnWhenSomethingDoes) {
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  Child master({VINDU_PROGRAM, "master", small_model(), "--wall", wall_file_, "--json"},
+               path("master.log"));
+  for (const char* tile : {"tile-0-0", "tile-1-0", "tile-0-1", "tile-1-1"})
+    await_log(std::string(tile) + ": admitted");
+  while (testing::vindu({"status", "--wall", wall_file_}).out.find("nothing changes") ==
+         std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+
+  const auto next_swaps = [&](std::size_t count) {
+    const std::size_t before = swaps_in(path("tile-0-0.csv")).size();
+    await_swaps("tile-0-0.csv", count);
+    std::vector<Swap> swaps = swaps_in(path("tile-0-0.csv"));
+    swaps.erase(swaps.begin(), swaps.begin() + static_cast<std::ptrdiff_t>(before));
+    return swaps;
+  };
+  EXPECT_GT(median_gap_s(next_swaps(5)), 0.3);
+  tiles[3].send(SIGKILL);
+  tiles[3].end();
+  Child again = start_tiles({"tile-1-1"}, "again.csv");  // gets the picture, and the lock
+  await_swaps("again.csv", 2);
+  const std::uint64_t before = swaps_in(path("tile-0-0.csv")).back().frame;
+  EXPECT_EQ(testing::vindu({"goto", "0,0,1", "--wall", wall_file_}).exit_code, 0);
+  const std::vector<Swap> glide = next_swaps(10);
+  EXPECT_GT(glide.back().frame, before);
+  EXPECT_EQ(testing::vindu({"stop", "--wall", wall_file_}).exit_code, 0);
+  EXPECT_EQ(master.end(), 0);
+  EXPECT_THAT(bytes_of(path("master.log")), ::testing::ContainsRegex("\"undrawn\":[1-9]"));
 }
 
 TEST_F(WallTest, GoesOnWithoutATileThatIsKilledAndTakesItInAgain) {
