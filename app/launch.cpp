@@ -103,6 +103,13 @@ void add_handed_on(CLI::App& app, LaunchCommand& command) {
   hand_on(app, "--seed", command.master_options,
           "Of the emulated cameras and the person before them")
       ->check(CLI::NonNegativeNumber);
+  app.add_option_function<std::string>(
+         "--shown",
+         [&command](const std::string& folder) {
+           command.tile_options.insert(command.tile_options.end(), {"--shown", folder + "/"});
+         },
+         "Each tile writes into this folder which frames it showed; as of vindu tile")
+      ->type_name("DIR");
   hand_on(app, "--scale", command.tile_options, "Of the tiles' pictures, 1: their own pixels")
       ->check(between(0.001, 4.0));
   hand_on(app, "--device", command.tile_options, "Which EGL device draws without a display")

@@ -32,7 +32,7 @@ std::vector<std::string> sbatch_words(const Site& site, const std::vector<std::s
           "--job-name",
           job_of(site),
           "--nodelist",
-          fold_names(hosts),
+          fmt::format("{}", fmt::join(hosts, ",")),  // Slurm reads no text behind a bracket
           "--nodes",
           std::to_string(hosts.size()),
           "--ntasks-per-node=1",

@@ -18,13 +18,24 @@ double mean_level(const Image& image) {
   return static_cast<double>(sum) / (3.0 * static_cast<double>(image.pixels.size()));
 }
 
+std::string file_for(const std::string& path, const std::string& tile) {
+  if (!path.ends_with('/') && !std::filesystem::is_directory(path)) return path;
+  std::error_code unable;  // then the file is, too
+  std::filesystem::create_directories(path, unable);
+  for (int start = 1;; ++start)
+    if (const auto file = std::filesystem::path(path) / fmt::format("{}-{}.csv", tile, start);
+        !std::filesystem::exists(file))
+      return file;
+}
+
 }  // namespace
 
-ShownFile::ShownFile(const std::string& file) : file_(file) {
-  if (file.empty()) return;
+ShownFile::ShownFile(const std::string& path, const std::string& tile) {
+  if (path.empty()) return;
+  file_ = file_for(path, tile);
   stream_.rdbuf()->pubsetbuf(nullptr, 0);  // each line at once: a tile may be killed
-  stream_.open(file);
-  if (!stream_) throw Error({"cannot be written", file, "choose another --shown"});
+  stream_.open(file_);
+  if (!stream_) throw Error({"cannot be written", file_, "choose another --shown"});
   write("", "time_ns,epoch,frame,tile,pixels,eye_x_m,locked,mean_level\n");
 }
 

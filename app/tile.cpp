@@ -174,7 +174,7 @@ class TileRun {
                               hears(site, part_)})),
         tile_(*bus_, {.host = host_name(), .incarnation = random_id(), .version = VINDU_VERSION},
               command.tiles),
-        shown_(command.shown_file) {
+        shown_(command.shown_file, command.tiles.front()) {
     tile_.poll(clock_.now());  // "loading", before anything that takes its time
     surface_ = surface_for(command, part_);
     tile_.renders_with(gl_description());
@@ -352,8 +352,10 @@ void add_tile(CLI::App& parent, Action& chosen) {
       ->check(between(0.0, 1.0));
   app->add_option("--shown", command->shown_file,
                   "Writes for each swap when it was, which frame it showed, and the number\n"
-                  "that it shows in its pixels (vindu pattern counter, or bar)")
-      ->type_name("FILE");
+                  "that it shows in its pixels (vindu pattern counter, or bar); into a new file
+                  "
+                  "for each start where this is a folder")
+      ->type_name("FILE|DIR/");
   app->footer(
       "\nExamples:\n"
       "  vindu tile --wall wall.toml                     on the host tile-3-0: that tile\n"

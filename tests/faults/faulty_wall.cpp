@@ -21,12 +21,12 @@ std::string wall_text(const FaultyWallOptions& options) {
       options.rate_hz);
 }
 
-Time time_of(const Swap& swap) { return Time(std::chrono::nanoseconds(swap.time_ns)); }
-
 }  // namespace
 
 FaultyWall::FaultyWall(FaultyWallOptions options)
-    : options_(std::move(options)), wall_file_(options_.folder + "/wall.toml") {
+    : options_(std::move(options)),
+      wall_file_(options_.folder + "/wall.toml"),
+      whole_(static_cast<std::size_t>(options_.columns) * static_cast<std::size_t>(options_.rows)) {
   std::ofstream(wall_file_) << wall_text(options_);
   std::vector<std::string> names = {"master"};
   for (int y = 0; y < options_.rows; ++y)
@@ -83,26 +83,16 @@ void FaultyWall::supervise(Time now) {
   }
 }
 
-const std::vector<FaultyWall::Whole>& FaultyWall::whole_frames() {
+const std::vector<WholeFrame>& FaultyWall::whole_frames() {
   for (std::size_t tile = 1; tile < members_.size(); ++tile) {
     Member& member = *members_[tile];
     for (std::size_t i = 0; i < member.shown.size(); ++i) {
       const std::vector<Swap>& swaps = member.shown[i].read();
-      for (; member.counted[i] < swaps.size(); ++member.counted[i]) count(swaps[member.counted[i]]);
+      for (; member.counted[i] < swaps.size(); ++member.counted[i])
+        whole_.add(swaps[member.counted[i]]);
     }
   }
-  std::ranges::sort(whole_, {}, &Whole::last);
-  return whole_;
-}
-
-void FaultyWall::count(const Swap& swap) {
-  if (swap.locked < tiles()) return;
-  const Time time = time_of(swap);
-  Seen& seen = seen_[{swap.epoch, swap.frame}];
-  if (seen.tiles++ == 0) seen.swaps = {time, time};
-  seen.swaps.first = std::min(seen.swaps.first, time);
-  seen.swaps.last = std::max(seen.swaps.last, time);
-  if (seen.tiles == tiles()) whole_.push_back(seen.swaps);
+  return whole_.in_order();
 }
 
 std::vector<std::vector<Swap>> FaultyWall::swaps(std::size_t tile) {

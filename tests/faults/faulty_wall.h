@@ -3,7 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,7 +12,7 @@
 #include "tests/faults/host.h"
 #include "tests/faults/lossy_switch.h"
 #include "tests/wall/children.h"
-#include "tests/wall/swaps.h"
+#include "tests/wall/whole_frames.h"
 
 namespace vindu::testing {
 
@@ -48,13 +47,8 @@ class FaultyWall {
   /// Starts again what has ended, 0.2 s after it was seen to have. To be called often.
   void supervise(Time now);
 
-  /// Frames that all tiles have shown, in the lock (which takes no tile that loads), by master and
-  /// number: when the first and the last did, in the order of time. Takes in what tiles have
-  /// written since.
-  struct Whole {
-    Time first{}, last{};
-  };
-  const std::vector<Whole>& whole_frames();
+  /// Takes in what tiles have written since.
+  const std::vector<WholeFrame>& whole_frames();
 
   /// Swaps by the tile's processes, one after the other.
   std::vector<std::vector<Swap>> swaps(std::size_t tile);
@@ -81,20 +75,14 @@ class FaultyWall {
     std::vector<std::size_t> counted;
     Time ended{};
   };
-  struct Seen {
-    std::size_t tiles = 0;
-    Whole swaps;
-  };
 
   void start(std::size_t member);
-  void count(const Swap& swap);
 
   FaultyWallOptions options_;
   std::string wall_file_;
   std::vector<std::unique_ptr<Member>> members_;
   std::unique_ptr<LossySwitch> switch_;
-  std::map<std::pair<std::string, std::uint64_t>, Seen> seen_;
-  std::vector<Whole> whole_;
+  WholeFrames whole_;
 };
 
 }  // namespace vindu::testing

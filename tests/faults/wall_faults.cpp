@@ -118,7 +118,7 @@ class FaultRun {
   std::optional<Duration> whole_after(Time since) {
     while (clock_.now() - since < kPatience) {
       pass(milliseconds(100));
-      for (const FaultyWall::Whole& frame : wall_.whole_frames())
+      for (const WholeFrame& frame : wall_.whole_frames())
         if (frame.first > since) return frame.last - since;
     }
     return std::nullopt;
@@ -274,7 +274,7 @@ void FaultRun::say_line(std::string_view what, std::vector<Incident> of) {
 void FaultRun::say_skew() {
   std::vector<double> skews, gaps;
   std::optional<Time> before;
-  for (const FaultyWall::Whole& frame : wall_.whole_frames()) {
+  for (const WholeFrame& frame : wall_.whole_frames()) {
     const bool in_quiet = std::ranges::any_of(
         quiet_, [&](const Span& span) { return frame.first > span.from && frame.last < span.to; });
     if (in_quiet) skews.push_back(ms(frame.last - frame.first));

@@ -2,8 +2,9 @@
 # Hosts of a wall on one machine: each has its own network, name, home and processes' groups, an
 # sshd and a systemd of the user. Needs root, network namespaces, and a cgroup2 to mount.
 #   namespace_hosts.sh up FOLDER PREFIX NAME...
+#   namespace_hosts.sh up_with_slurm FOLDER PREFIX NAME...    the first is the controller too
 #   namespace_hosts.sh host FOLDER PREFIX NAME     (one of them, called by "up")
-#   namespace_hosts.sh run FOLDER PREFIX NAME COMMAND...    a command on the network of one
+#   namespace_hosts.sh run FOLDER PREFIX NAME COMMAND...    a command on the network of one, in FOLDER
 #   namespace_hosts.sh down FOLDER PREFIX
 # In FOLDER: NAME/root, a host's home; NAME/log, what its systemd and sshd say. PREFIX begins the
 # namespaces' names.
@@ -37,6 +38,51 @@ keys() {
   } > "$folder/ssh/sshd_config"
   printf '#!/bin/sh\nexec /usr/bin/ssh -F %s/ssh/config "$@"\n' "$folder" > "$folder/bin/ssh"
   chmod +x "$folder/bin/ssh"
+}
+
+# What the clients of Slurm and its daemons read; a daemon's own files are in slurm/NAME.
+slurm_files() {
+  local slurm=$folder/slurm number=1 name
+  mkdir -p "$slurm"
+  mungekey --create --keyfile "$slurm/munge.key"
+  printf 'CgroupPlugin=cgroup/v1\n' > "$slurm/cgroup.conf"
+  {
+    printf 'ClusterName=%s\nSlurmctldHost=%s\n' "$prefix" "$1"
+    printf 'SlurmUser=root\nSlurmdUser=root\n'
+    printf 'AuthType=auth/munge\nAuthInfo=socket=%s/munge.socket\n' "$slurm"
+    printf 'StateSaveLocation=%s/state\nSlurmctldPidFile=%s/slurmctld.pid\n' "$slurm" "$slurm"
+    printf 'SlurmdSpoolDir=%s/%%n\nSlurmdPidFile=%s/%%n/pid\n' "$slurm" "$slurm"
+    printf 'ProctrackType=proctrack/pgid\nTaskPlugin=task/none\nMpiDefault=none\n'
+    printf 'JobAcctGatherType=jobacct_gather/none\nReturnToService=2\nKillWait=5\n'
+    printf 'SlurmdParameters=config_overrides\n'
+    for name; do
+      printf 'NodeName=%s NodeHostname=%s NodeAddr=10.77.0.%s CPUs=2\n' "$name" "$name" "$number"
+      number=$((number + 1))
+    done
+    printf 'PartitionName=wall Nodes=ALL Default=YES\n'
+  } > "$slurm/slurm.conf"
+}
+
+slurm_daemons() { # NAME
+  local slurm=$folder/slurm
+  mkdir -p "$slurm/$1" "$slurm/state"
+  export SLURM_CONF=$slurm/slurm.conf
+  if grep -q "^SlurmctldHost=$1$" "$SLURM_CONF"; then
+    munged --foreground --force --key-file="$slurm/munge.key" --socket="$slurm/munge.socket" \
+      --pid-file="$slurm/munged.pid" --log-file="$slurm/munged.log" \
+      --seed-file="$slurm/munged.seed" &
+    until [ -S "$slurm/munge.socket" ]; do sleep 0.05; done
+    slurmctld -D -c &
+  fi
+  until [ -S "$slurm/munge.socket" ]; do sleep 0.05; done
+  slurmd -D -N "$1" &
+}
+
+up_with_slurm() {
+  command -v mungekey munged slurmctld slurmd sbatch > /dev/null || exit 77
+  slurm_files "$@"
+  up "$@"
+  until [ "$(run "$1" sinfo -h -N -t idle -o %N | wc -l)" = $# ]; do sleep 0.2; done
 }
 
 up() {
@@ -73,11 +119,13 @@ host() {
   mount -t cgroup2 none /sys/fs/cgroup
   mount -t tmpfs none /run
   mount --bind "$folder/$name/root" /root
+  unset XDG_CACHE_HOME
   export HOME=/root XDG_RUNTIME_DIR=/run/user/0 SYSTEMD_LOG_TARGET=console SYSTEMD_LOG_LEVEL=notice
   mkdir -p /run/systemd/system /run/sshd "$XDG_RUNTIME_DIR" "/sys/fs/cgroup/$prefix-$name"
   chmod 700 "$XDG_RUNTIME_DIR"
   echo $$ > "/sys/fs/cgroup/$prefix-$name/cgroup.procs"
   /usr/sbin/sshd -D -e -f "$folder/ssh/sshd_config" &
+  [ ! -e "$folder/slurm" ] || slurm_daemons "$name"
   cd /root
   (
     until systemctl --user is-active --quiet basic.target 2> /dev/null; do sleep 0.05; done
@@ -89,6 +137,8 @@ host() {
 run() {
   local name=$1
   shift
+  export SLURM_CONF="$folder/slurm/slurm.conf"
+  cd "$folder"
   exec nsenter --net="/var/run/netns/$prefix-$name" unshare --mount sh -c \
     'mount --bind "$1/hosts" /etc/hosts; export PATH="$1/bin:$PATH"; shift; exec "$@"' \
     sh "$folder" "$@"

@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
-#include "cluster/launch/hosts.h"
+#include "tests/launch/namespace_hosts.h"
 
 namespace vindu {
 namespace {
@@ -20,36 +19,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* kModel = "it's a \"model\" $HOME 100%.glb";  // as launch_peer has it
 
-constexpr const char* kRig = VINDU_SOURCE_DIR "/tests/launch/namespace_hosts.sh";
-
 class WallHosts : public ::testing::Test {
  protected:
   WallHosts() {
-    std::string pattern = (fs::temp_directory_path() / "vindu_hosts_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    // By system(): run_program would end what it leaves behind.
-    made_ = std::system(
-                (std::string(kRig) + " up " + folder_ + " " + prefix_ + " head tile-0-0 tile-1-0")
-                    .c_str()) == 0;
     fs::create_directories(stage() / "bin");
     fs::create_directories(stage() / "scene");
     fs::copy_file(VINDU_LAUNCH_PEER, stage() / "bin/vindu");
     std::ofstream(stage() / "wall.toml") << "a wall\n";
     std::ofstream(stage() / "scene" / kModel) << "a model\n";
   }
-  ~WallHosts() override {
-    hosts({"down", folder_, prefix_});
-    fs::remove_all(folder_);
-  }
 
-  static ProgramResult hosts(std::vector<std::string> words) {
-    words.insert(words.begin(), kRig);
-    return run_program(words);
-  }
-  ProgramResult on_head(std::vector<std::string> words) {
-    words.insert(words.begin(), {"run", folder_, prefix_, "head"});
-    return hosts(words);
-  }
+  ProgramResult on_head(const std::vector<std::string>& words) { return hosts_.on_head(words); }
   /// The lines of who failed.
   std::vector<std::string> ask(const std::string& verb,
                                std::vector<std::string> names = {"head", "tile-0-0", "tile-1-0"}) {
@@ -61,8 +41,8 @@ class WallHosts : public ::testing::Test {
       on_head({"ssh", tile, "systemctl --user set-environment DISPLAY=:7"});
   }
 
-  fs::path stage() const { return fs::path(folder_) / "stage"; }
-  fs::path home(const std::string& host) const { return fs::path(folder_) / host / "root"; }
+  fs::path stage() const { return hosts_.folder() / "stage"; }
+  fs::path home(const std::string& host) const { return hosts_.home(host); }
   /// What the stand-in for vindu said, from its process id on.
   std::vector<std::string> said(const std::string& host, const std::string& role) const {
     std::vector<std::string> lines;
@@ -83,13 +63,11 @@ class WallHosts : public ::testing::Test {
     return lines;
   }
 
-  bool made_ = false;
-  std::string folder_;
-  std::string prefix_ = "vindul" + std::to_string(getpid());
+  testing::NamespaceHosts hosts_{{"head", "tile-0-0", "tile-1-0"}};
 };
 
 TEST_F(WallHosts, RunWhatTheyAreToldUntilTheyAreStopped) {
-  if (!made_) GTEST_SKIP() << "no namespaces or no systemd here";
+  if (!hosts_.made()) GTEST_SKIP() << "no namespaces or no systemd here";
   log_in_at_screens();
   ASSERT_THAT(ask("copy"), IsEmpty());
 
@@ -113,7 +91,7 @@ TEST_F(WallHosts, RunWhatTheyAreToldUntilTheyAreStopped) {
 }
 
 TEST_F(WallHosts, ThatCannotSayWhyAndTheOthersGoOn) {
-  if (!made_) GTEST_SKIP() << "no namespaces or no systemd here";
+  if (!hosts_.made()) GTEST_SKIP() << "no namespaces or no systemd here";
   ask("copy");
   on_head({"ssh", "tile-0-0", "systemctl --user set-environment DISPLAY=:7"});
 
@@ -131,7 +109,7 @@ TEST_F(WallHosts, ThatCannotSayWhyAndTheOthersGoOn) {
 }
 
 TEST_F(WallHosts, AreDeployedToByTheProgramItself) {
-  if (!made_) GTEST_SKIP() << "no namespaces or no systemd here";
+  if (!hosts_.made()) GTEST_SKIP() << "no namespaces or no systemd here";
   fs::create_directories(stage() / "site/models");
   const std::string wall = stage() / "site/wall.toml";
   std::ofstream(wall) << "[wall]\ncolumns = 2\nrows = 1\nwidth_m = 1\nheight_m = 0.4\n"
