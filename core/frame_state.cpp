@@ -23,6 +23,7 @@ class Fnv1a {
     add(state.navigation.wall_from_scene.translation);
     add(state.navigation.scale);
     add(state.animation_time_s);
+    add(static_cast<std::uint64_t>(state.clip));
     add(std::uint64_t{state.overlays});
     add(static_cast<std::uint64_t>(state.pattern));
     add(std::uint64_t{state.blank});

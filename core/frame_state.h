@@ -35,6 +35,7 @@ struct FrameState {
   Vec3 eye_in_wall = Vec3(0, 0.10, 2.0);
   Navigation navigation{};
   double animation_time_s = 0;
+  int clip = 0;  ///< which of the scene's animations plays; -1, and one that is not there: at rest
   Mode mode = Mode::track;
   std::uint32_t overlays = 0;
   Pattern pattern = Pattern::none;

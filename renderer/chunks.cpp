@@ -68,16 +68,19 @@ void order_vertices_by_use(Scene& scene) {
   constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> place_of(scene.vertices.size(), kUnused);
   std::vector<Vertex> ordered;
+  std::vector<Influences> influences;
   ordered.reserve(scene.vertices.size());
   for (std::uint32_t& index : scene.indices) {
     std::uint32_t& place = place_of[index];
     if (place == kUnused) {
       place = static_cast<std::uint32_t>(ordered.size());
       ordered.push_back(scene.vertices[index]);
+      if (!scene.skin.influences.empty()) influences.push_back(scene.skin.influences[index]);
     }
     index = place;
   }
   scene.vertices = std::move(ordered);
+  scene.skin.influences = std::move(influences);
 }
 
 }  // namespace

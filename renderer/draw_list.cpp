@@ -39,7 +39,7 @@ std::vector<const GpuScene::Draw*> sorted_draws(const GpuScene& scene, const Vec
 }
 
 bool alike(const GpuScene::Draw& a, const GpuScene::Draw& b) {
-  return a.node == b.node && a.mesh.material == b.mesh.material;
+  return a.node == b.node && a.mesh.material == b.mesh.material && a.mesh.skinned == b.mesh.skinned;
 }
 
 }  // namespace

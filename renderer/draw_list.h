@@ -18,7 +18,7 @@ struct DrawCount {
   DrawCount& operator+=(const DrawCount& other);
 };
 
-/// Draws of one node and material, in one call.
+/// Draws of one node and material, all skinned or none, in one call.
 struct Batch {
   const GpuScene::Draw* first = nullptr;
   std::vector<GLsizei> counts;

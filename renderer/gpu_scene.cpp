@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "core/error.h"
 #include "renderer/gl/convert.h"
@@ -90,14 +91,6 @@ std::vector<GpuVertex> gpu_vertices(const Scene& scene, Style style) {
   return vertices;
 }
 
-/// The box around a moved box: its middle moves, its half size by the absolute matrix (J. Arvo,
-/// Graphics Gems, 1990).
-Box3f moved(const Box3f& box, const Eigen::Matrix4f& matrix) {
-  const Eigen::Vector3f middle = (matrix * box.center().homogeneous()).head<3>();
-  const Eigen::Vector3f half = 0.5f * matrix.topLeftCorner<3, 3>().cwiseAbs() * box.sizes();
-  return {middle - half, middle + half};
-}
-
 /// What few vertices need.
 struct GpuDetail {
   Eigen::Vector3f tangent_in_node;
@@ -122,7 +115,7 @@ void check_memory(const std::string& name) {
 }  // namespace
 
 GpuScene::GpuScene(const Scene& scene, const Look& look)
-    : triangle_count_(scene.triangle_count()), textures_(scene, look) {
+    : triangle_count_(scene.triangle_count()), skin_(scene), textures_(scene, look) {
   skeleton_.nodes = scene.nodes;
   skeleton_.animations = scene.animations;
   list_draws(scene);
@@ -140,7 +133,8 @@ void GpuScene::list_draws(const Scene& scene) {
       const Mesh& mesh = scene.meshes[index];
       const Material& material = scene.materials[mesh.material];
       draws_.push_back({static_cast<int>(node), mesh, material.alpha_mode, material.double_sided,
-                        kind_of(material)});
+                        kind_of(material) | (mesh.skinned ? kSkinned : 0u),
+                        mesh.skinned ? joint_boxes(scene, mesh) : std::vector<JointBox>{}});
     }
   std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
     return std::pair(a.alpha_mode, a.mesh.material) < std::pair(b.alpha_mode, b.mesh.material);
@@ -161,6 +155,7 @@ void GpuScene::upload_geometry(const Scene& scene, Style style) {
   glVertexArrayAttribFormat(array, 3, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(GpuVertex, colour));
   glVertexArrayAttribBinding(array, 3, 0);
   glEnableVertexArrayAttrib(array, 3);
+  skin_.add_attributes(array, 2);
 }
 
 void GpuScene::upload_details(const Scene& scene) {
@@ -187,16 +182,17 @@ void GpuScene::upload_materials(const Scene& scene, Style style) {
   materials_ = gl::make_buffer(blocks.data(), blocks.size());
 }
 
-void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s) {
-  std::vector<Eigen::Matrix4f> world_from_nodes = node_transforms(skeleton_, animation_time_s);
-  mirrored_.resize(world_from_nodes.size());
+void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s, int clip) {
+  std::vector<Eigen::Matrix4f> world_from_nodes =
+      node_transforms(skeleton_, animation_time_s, clip);
+  facings_.resize(world_from_nodes.size());
   std::vector<std::byte> blocks(world_from_nodes.size() * kBlockBytes);
   for (std::size_t node = 0; node < world_from_nodes.size(); ++node) {
     const Mat4 world_from_node = world_from_scene * world_from_nodes[node].cast<double>();
     world_from_nodes[node] = world_from_node.cast<float>();
     const Mat3 linear = world_from_node.topLeftCorner<3, 3>();
     const double determinant = linear.determinant();
-    mirrored_[node] = determinant < 0;
+    facings_[node] = determinant < 0 ? Facing::mirrored : Facing::front;
     // Normals turn with the inverse transpose; a node flattened to nothing keeps any.
     Mat4 normal = Mat4::Identity();
     if (determinant != 0) normal.topLeftCorner<3, 3>() = linear.inverse().transpose();
@@ -208,12 +204,33 @@ void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s) {
   ++moves_;
   world_from_nodes_ = std::move(world_from_nodes);
   glNamedBufferSubData(nodes_.name(), 0, static_cast<GLsizeiptr>(blocks.size()), blocks.data());
-  bounds_in_world_.clear();
-  for (const Draw& draw : draws_)
-    bounds_in_world_.push_back(moved(draw.mesh.bounds_in_node, world_from_nodes_[draw.node]));
+  skin_.pose(world_from_nodes_);
+  place_draws();
 }
 
-void GpuScene::bind() const { glBindVertexArray(vertex_array_.name()); }
+void GpuScene::place_draws() {
+  bounds_in_world_.clear();
+  std::vector<std::optional<Facing>> facings(world_from_nodes_.size());
+  for (const Draw& draw : draws_) {
+    if (!draw.mesh.skinned) {
+      bounds_in_world_.push_back(moved(draw.mesh.bounds_in_node, world_from_nodes_[draw.node]));
+      continue;
+    }
+    bounds_in_world_.push_back(skin_.bounds_in_world(draw.joints));
+    std::optional<Facing>& facing = facings[static_cast<std::size_t>(draw.node)];
+    for (const JointBox& box : draw.joints) {
+      const Facing own = skin_.mirrored(box.joint) ? Facing::mirrored : Facing::front;
+      facing = facing.value_or(own) == own ? own : Facing::mixed;
+    }
+  }
+  skinned_facings_.clear();
+  for (const auto& facing : facings) skinned_facings_.push_back(facing.value_or(Facing::front));
+}
+
+void GpuScene::bind() const {
+  glBindVertexArray(vertex_array_.name());
+  skin_.bind();
+}
 
 void GpuScene::bind(const Draw& draw, SurfaceKind kind) const {
   glBindBufferRange(GL_UNIFORM_BUFFER, 0, nodes_.name(), draw.node * kBlockBytes, sizeof(GpuNode));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/rigid3.h"
+#include "renderer/gpu_skin.h"
 #include "renderer/gpu_textures.h"
 #include "renderer/surface_kind.h"
 
@@ -19,8 +20,9 @@ class GpuScene {
   GpuScene(const Scene& scene, const Look& look);
   GpuScene(const Scene& scene, Style style) : GpuScene(scene, Look{style}) {}
 
-  /// Once a frame, before any view is drawn: where the scene stands, and its animation's time.
-  void pose(const Mat4& world_from_scene, double animation_time_s);
+  /// Once a frame, before any view is drawn: where the scene stands, which of its animations plays
+  /// and where that is.
+  void pose(const Mat4& world_from_scene, double animation_time_s, int clip = 0);
 
   std::size_t triangle_count() const { return triangle_count_; }
 
@@ -31,13 +33,18 @@ class GpuScene {
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
     SurfaceKind kind = 0;
+    std::vector<JointBox> joints{};  ///< of a skinned mesh
   };
   const std::vector<Draw>& draws() const { return draws_; }  ///< opaque, then masked, then blended
   /// Around the draw's mesh as it is posed.
   const Box3f& bounds_in_world(const Draw& draw) const {
     return bounds_in_world_[&draw - draws_.data()];
   }
-  bool mirrored(int node) const { return mirrored_[node]; }
+  /// Which side of a draw's triangles looks outwards; the same for all skinned draws of a node.
+  enum class Facing { front, mirrored, mixed };
+  Facing facing(const Draw& draw) const {
+    return (draw.mesh.skinned ? skinned_facings_ : facings_)[static_cast<std::size_t>(draw.node)];
+  }
   /// Another number whenever pose() has moved something; never that of another scene that lives.
   struct Stand {
     GLuint scene = 0;
@@ -55,6 +62,7 @@ class GpuScene {
   void upload_details(const Scene& scene);
   void upload_materials(const Scene& scene, Style style);
   void list_draws(const Scene& scene);
+  void place_draws();
 
   Scene skeleton_;  // nodes and animations
   std::size_t triangle_count_ = 0;
@@ -62,7 +70,7 @@ class GpuScene {
   std::vector<Box3f> bounds_in_world_;  // of each draw
   std::vector<Eigen::Matrix4f> world_from_nodes_;
   std::uint64_t moves_ = 0;
-  std::vector<bool> mirrored_;
+  std::vector<Facing> facings_, skinned_facings_;                    // of each node
   std::vector<std::array<TextureUse, kTextureRoles>> texture_uses_;  // of each material
   gl::Buffer vertices_;
   gl::Buffer details_;  // tangents and second texture coordinates, where a material asks for them
@@ -70,6 +78,7 @@ class GpuScene {
   gl::Buffer materials_;  // uniform blocks, kBlockBytes apart
   gl::Buffer nodes_;      // the same
   gl::VertexArray vertex_array_;
+  GpuSkin skin_;
   GpuTextures textures_;
 };
 

@@ -16,6 +16,7 @@
 #include "renderer/import_geometry.h"
 #include "renderer/import_materials.h"
 #include "renderer/import_nodes.h"
+#include "renderer/import_skin.h"
 #include "renderer/import_textures.h"
 
 namespace vindu {
@@ -175,7 +176,6 @@ void warn_of(const MeshLosses& losses, std::vector<std::string>& warnings) {
   };
   warn(losses.broken_triangles, " broken triangles are left out");
   warn(losses.points_and_lines, " points and lines are left out");
-  warn(losses.skinned_meshes, " meshes have bones; they are shown in their rest position");
   warn(losses.morphed_meshes, " meshes have morph targets, which do not move");
 }
 
@@ -184,25 +184,34 @@ MaterialStyle style_of(const std::string& loader) {
   return loader == kObjLoader ? MaterialStyle::obj : MaterialStyle::legacy;
 }
 
-/// Meshes that no node shows cost nothing.
-std::vector<bool> meshes_in_use(const aiScene& source) {
-  std::vector<bool> used(source.mNumMeshes, false);
-  std::vector<const aiNode*> nodes = {source.mRootNode};
-  while (!nodes.empty()) {
-    const aiNode& node = *nodes.back();
-    nodes.pop_back();
-    for (unsigned i = 0; i < node.mNumMeshes; ++i)
-      if (node.mMeshes[i] < used.size()) used[node.mMeshes[i]] = true;
-    for (unsigned i = 0; i < node.mNumChildren; ++i)
-      if (node.mChildren[i]) nodes.push_back(node.mChildren[i]);  // Assimp's RAW loader leaves gaps
-  }
-  return used;
+/// The first node that shows each of Assimp's meshes, or -1: what no node shows costs nothing.
+std::vector<int> first_nodes(const aiScene& source, const ImportedNodes& nodes) {
+  std::vector<int> first(source.mNumMeshes, -1);
+  for (const MeshUse& use : nodes.meshes)
+    if (use.source_mesh < first.size() && first[use.source_mesh] < 0)
+      first[use.source_mesh] = use.node;
+  return first;
 }
 
-/// Fills meshes, vertices, indices, materials and textures; returns the scene's mesh for each of
-/// Assimp's, or -1.
+/// Where a skinned mesh stands is up to its joints: several nodes would show it in one place.
+void hang_meshes(const ImportedNodes& imported, const std::vector<int>& mesh_of_source,
+                 Scene& scene) {
+  scene.nodes = imported.nodes;
+  std::vector<bool> shown(scene.meshes.size(), false);
+  for (const auto& [node, source_mesh] : imported.meshes) {
+    if (source_mesh >= mesh_of_source.size() || mesh_of_source[source_mesh] < 0) continue;
+    const auto mesh = static_cast<std::size_t>(mesh_of_source[source_mesh]);
+    if (scene.meshes[mesh].skinned && shown[mesh]) continue;
+    shown[mesh] = true;
+    scene.nodes[static_cast<std::size_t>(node)].meshes.push_back(static_cast<int>(mesh));
+  }
+}
+
+/// Fills meshes, vertices, indices, skin, materials and textures; returns the scene's mesh for each
+/// of Assimp's, or -1.
 std::vector<int> import_meshes(const aiScene& source, const std::string& file,
-                               const ImportLimits& limits, ImportResult& result) {
+                               const ImportLimits& limits, const ImportedNodes& nodes,
+                               ImportResult& result) {
   Scene& scene = result.scene;
   const std::string loader = loader_of(source);
   const MaterialStyle style = style_of(loader);
@@ -211,15 +220,18 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
   MaterialImporter materials(source, style, textures, result.warnings);
   MeshLosses losses;
   std::vector<int> mesh_of_source(source.mNumMeshes, -1);
-  const std::vector<bool> used = meshes_in_use(source);
+  SkinImporter skins(nodes.by_name, scene.skin);
+  const std::vector<int> node_of_source = first_nodes(source, nodes);
   for (unsigned i = 0; i < source.mNumMeshes; ++i) {
-    if (!used[i]) continue;
+    if (node_of_source[i] < 0) continue;
     const aiMesh& source_mesh = *source.mMeshes[i];
     const ImportedMaterial material =
         materials.import(source_mesh.mMaterialIndex, source_mesh.HasVertexColors(0));
+    const std::vector<Influences> influences = skins.read(source_mesh, node_of_source[i]);
     const MeshOptions options = {.uv_channels = material.uv_channels,
                                  .own_normals = loader == kBlenderLoader,
-                                 .normal_map = material.normal_map};
+                                 .normal_map = material.normal_map,
+                                 .influences = influences};
     std::optional<Mesh> mesh = append_mesh(source_mesh, options, scene, losses);
     if (!mesh) continue;
     mesh->material = material.index;
@@ -231,6 +243,7 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
   scene.textures = textures.take();
   result.files.insert(result.files.end(), textures.files().begin(), textures.files().end());
   warn_of(losses, result.warnings);
+  skins.warn(result.warnings);
   if (scene.indices.empty() && losses.broken_triangles > 0)
     throw_broken(file, "all its triangles have vertices that are not finite or not there");
   return mesh_of_source;
@@ -252,9 +265,9 @@ ImportResult converted(const aiScene& source, const std::string& file, const Imp
   ImportResult result{.scene = {}, .warnings = {}, .files = std::move(opened)};
   Scene& scene = result.scene;
   scene.name = std::filesystem::path(file).stem().string();
-  const std::vector<int> mesh_of_source = import_meshes(source, file, limits, result);
-  scene.nodes = import_nodes(source, mesh_of_source, result.warnings);
-  scene.animations = import_animations(source, scene.nodes);
+  const ImportedNodes nodes = import_nodes(source, result.warnings);
+  hang_meshes(nodes, import_meshes(source, file, limits, nodes, result), scene);
+  scene.animations = import_animations(source, nodes.by_name);
   const std::string loader = loader_of(source);
   scene.metres_per_unit = metres_per_unit(source, loader);
   if (const std::optional<Eigen::Matrix4f> turned = upright_from_file(source, loader))

@@ -1,4 +1,4 @@
-// Any model file that Assimp reads, as a Scene. Static geometry, node transforms, node animation,
+// Any model file that Assimp reads, as a Scene. Geometry, node transforms, bones, animation,
 // materials and their textures (embedded or beside the file); missing normals and tangents are
 // computed. A file that cannot become a picture is an Error that says why and what to do; the
 // caller keeps the scene it had.

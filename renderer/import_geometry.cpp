@@ -81,6 +81,8 @@ class VertexReader {
     return Eigen::Vector3f(normal + Eigen::Vector3f::Zero());
   }
 
+  std::span<const Influences> influences() const { return options_.influences; }
+
   Vertex read(unsigned index, const Eigen::Vector3f& normal) const {
     Vertex vertex;
     vertex.position_in_node = vector_of(mesh_.mVertices[index]);
@@ -133,16 +135,54 @@ bool all_have_normals(const VertexReader& reader, const std::vector<unsigned>& c
                              [&](unsigned i) { return reader.unit_normal(i).has_value(); });
 }
 
+/// Vertices on their way into the scene: equal ones, which the same joints move, once.
+class VertexTable {
+ public:
+  VertexTable(Scene& scene, std::span<const Influences> influences, std::size_t capacity)
+      : scene_(scene), influences_(influences), first_(scene.vertices.size()) {
+    if (influences.empty())
+      plain_.emplace(scene.vertices, capacity);
+    else
+      skinned_.emplace(distinct_, capacity);
+  }
+
+  /// `source`: its index in the Assimp mesh.
+  std::uint32_t index_of(const Vertex& vertex, unsigned source) {
+    if (plain_) return plain_->index_of(vertex);
+    const std::uint32_t index = skinned_->index_of({vertex, influences_[source]});
+    if (first_ + index == scene_.vertices.size()) {
+      scene_.vertices.push_back(vertex);
+      scene_.skin.influences.resize(scene_.vertices.size());
+      scene_.skin.influences.back() = influences_[source];
+    }
+    return static_cast<std::uint32_t>(first_ + index);
+  }
+
+ private:
+  struct SkinnedVertex {
+    Vertex vertex;
+    Influences influences;
+  };
+
+  Scene& scene_;
+  std::span<const Influences> influences_;
+  std::size_t first_;
+  std::vector<SkinnedVertex> distinct_;
+  std::optional<Deduplicator<Vertex>> plain_;
+  std::optional<Deduplicator<SkinnedVertex>> skinned_;
+};
+
 /// Every vertex as the file has it.
 void append_as_given(const aiMesh& mesh, const VertexReader& reader,
                      const std::vector<unsigned>& corners, Scene& scene) {
+  VertexTable table(scene, reader.influences(),
+                    std::min<std::size_t>(corners.size(), mesh.mNumVertices));
   constexpr std::uint32_t unset = 0xffffffff;
   std::vector<std::uint32_t> scene_index(mesh.mNumVertices, unset);
-  Deduplicator<Vertex> table(scene.vertices,
-                             std::min<std::size_t>(corners.size(), mesh.mNumVertices));
   for (const unsigned corner : corners) {
     if (scene_index[corner] == unset)
-      scene_index[corner] = table.index_of(reader.read(corner, *reader.unit_normal(corner)));
+      scene_index[corner] =
+          table.index_of(reader.read(corner, *reader.unit_normal(corner)), corner);
     scene.indices.push_back(scene_index[corner]);
   }
 }
@@ -154,10 +194,10 @@ void append_with_normals(const aiMesh& mesh, const VertexReader& reader,
   positions.reserve(corners.size());
   for (const unsigned corner : corners) positions.push_back(vector_of(mesh.mVertices[corner]));
   const std::vector<Eigen::Vector3f> computed = corner_normals(positions);
-  Deduplicator<Vertex> table(scene.vertices, corners.size());
+  VertexTable table(scene, reader.influences(), corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector3f normal = reader.unit_normal(corners[i]).value_or(computed[i]);
-    scene.indices.push_back(table.index_of(reader.read(corners[i], normal)));
+    scene.indices.push_back(table.index_of(reader.read(corners[i], normal), corners[i]));
   }
 }
 
@@ -175,16 +215,17 @@ std::optional<Mesh> append_mesh(const aiMesh& source, const MeshOptions& options
   if (!source.HasPositions() || !source.HasFaces()) return std::nullopt;
   const std::vector<unsigned> corners = usable_corners(source, losses);
   if (corners.empty()) return std::nullopt;
-  losses.skinned_meshes += source.HasBones() ? 1 : 0;
   losses.morphed_meshes += source.mNumAnimMeshes > 0 ? 1 : 0;
   Mesh mesh;
   mesh.first_index = static_cast<std::uint32_t>(scene.indices.size());
   mesh.index_count = static_cast<std::uint32_t>(corners.size());
+  mesh.skinned = !options.influences.empty();
   const VertexReader reader(source, options);
   if (all_have_normals(reader, corners))
     append_as_given(source, reader, corners, scene);
   else
     append_with_normals(source, reader, corners, scene);
+  if (!scene.skin.influences.empty()) scene.skin.influences.resize(scene.vertices.size());
   if (options.normal_map) complete_tangents(scene, mesh, *options.normal_map);
   mesh.bounds_in_node = bounds_of(scene, mesh);
   return mesh;

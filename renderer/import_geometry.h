@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "renderer/scene.h"
 
@@ -18,15 +19,15 @@ using UvChannels = std::array<unsigned, 2>;
 
 struct MeshOptions {
   UvChannels uv_channels = {0, 0};
-  bool own_normals = false;              ///< the file's are not to be trusted: compute all
-  std::optional<TextureUse> normal_map;  ///< where there is one, vertices get tangents
+  bool own_normals = false;                ///< the file's are not to be trusted: compute all
+  std::optional<TextureUse> normal_map;    ///< where there is one, vertices get tangents
+  std::span<const Influences> influences;  ///< of each of its vertices; empty: no bone moves any
 };
 
 /// What was left out, over all meshes.
 struct MeshLosses {
   std::size_t broken_triangles = 0;  ///< a vertex that is not finite or not there
   std::size_t points_and_lines = 0;
-  std::size_t skinned_meshes = 0;  ///< shown as they lie in the file
   std::size_t morphed_meshes = 0;
 };
 

@@ -2,29 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <unordered_map>
+
+#include "renderer/import_values.h"
 
 namespace vindu {
 namespace {
 
-/// Assimp's is row-major, its last row (0, 0, 0, 1).
-Eigen::Matrix4f matrix_of(const aiMatrix4x4& m) {
-  Eigen::Matrix4f matrix;
-  matrix << m.a1, m.a2, m.a3, m.a4,  //
-      m.b1, m.b2, m.b3, m.b4,        //
-      m.c1, m.c2, m.c3, m.c4,        //
-      0, 0, 0, 1;
-  return matrix;
-}
-
-Node node_of(const aiNode& source, int parent, const std::vector<int>& mesh_of_source) {
+Node node_of(const aiNode& source, int parent) {
   Node node;
   node.name = source.mName.C_Str();
   node.parent = parent;
   node.parent_from_node = matrix_of(source.mTransformation);
-  for (unsigned i = 0; i < source.mNumMeshes; ++i)
-    if (source.mMeshes[i] < mesh_of_source.size() && mesh_of_source[source.mMeshes[i]] >= 0)
-      node.meshes.push_back(mesh_of_source[source.mMeshes[i]]);
   return node;
 }
 
@@ -95,19 +84,27 @@ Animation animation_of(const aiAnimation& source, const std::map<std::string, in
 
 }  // namespace
 
-std::vector<Node> import_nodes(const aiScene& source, const std::vector<int>& mesh_of_source,
-                               std::vector<std::string>& warnings) {
+ImportedNodes import_nodes(const aiScene& source, std::vector<std::string>& warnings) {
   struct Task {
     const aiNode* node;
     int parent;
   };
-  std::vector<Node> nodes;
+  ImportedNodes imported;
+  std::vector<Node>& nodes = imported.nodes;
+  std::unordered_map<const aiNode*, int> index_of;
   std::vector<Task> tasks = {{source.mRootNode, -1}};  // a stack: trees may be very deep
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
     const int index = static_cast<int>(nodes.size());
-    nodes.push_back(node_of(*task.node, task.parent, mesh_of_source));
+    // Assimp 5.2's Half-Life loader lists all bones as children of one node; they know better.
+    const auto own_parent = index_of.find(task.node->mParent);
+    nodes.push_back(
+        node_of(*task.node, own_parent != index_of.end() ? own_parent->second : task.parent));
+    index_of[task.node] = index;
+    imported.by_name.try_emplace(nodes.back().name, index);
+    for (unsigned i = 0; i < task.node->mNumMeshes; ++i)
+      imported.meshes.push_back({index, task.node->mMeshes[i]});
     if (!nodes.back().parent_from_node.allFinite()) {
       nodes.back().parent_from_node.setIdentity();
       warnings.push_back("node " + nodes.back().name + ": its transform is not finite; left out");
@@ -115,13 +112,11 @@ std::vector<Node> import_nodes(const aiScene& source, const std::vector<int>& me
     for (unsigned i = task.node->mNumChildren; i-- > 0;)
       if (task.node->mChildren[i]) tasks.push_back({task.node->mChildren[i], index});
   }
-  return nodes;
+  return imported;
 }
 
-std::vector<Animation> import_animations(const aiScene& source, const std::vector<Node>& nodes) {
-  std::map<std::string, int> node_of_name;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    node_of_name.try_emplace(nodes[i].name, static_cast<int>(i));
+std::vector<Animation> import_animations(const aiScene& source,
+                                         const std::map<std::string, int>& node_of_name) {
   std::vector<Animation> animations;
   for (unsigned i = 0; i < source.mNumAnimations; ++i) {
     Animation animation = animation_of(*source.mAnimations[i], node_of_name);

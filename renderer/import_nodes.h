@@ -3,6 +3,7 @@
 
 #include <assimp/scene.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,23 @@
 
 namespace vindu {
 
-/// `mesh_of_source[i]` is the scene's index of Assimp's mesh i, or -1 where nothing of it is left.
-std::vector<Node> import_nodes(const aiScene& source, const std::vector<int>& mesh_of_source,
-                               std::vector<std::string>& warnings);
+/// A node that shows one of Assimp's meshes.
+struct MeshUse {
+  int node = 0;
+  unsigned source_mesh = 0;
+};
 
-/// Animations of nodes; those of bones and morph targets only where they move nodes. Channels of
+struct ImportedNodes {
+  std::vector<Node> nodes{};             ///< without their meshes
+  std::vector<MeshUse> meshes{};         ///< in the order of nodes; of those that are there and not
+  std::map<std::string, int> by_name{};  ///< the first of each name
+};
+
+ImportedNodes import_nodes(const aiScene& source, std::vector<std::string>& warnings);
+
+/// Animations of nodes, which bones are too; not of morph targets. Channels of
 /// unknown nodes and keys that are not finite are left out.
-std::vector<Animation> import_animations(const aiScene& source, const std::vector<Node>& nodes);
+std::vector<Animation> import_animations(const aiScene& source,
+                                         const std::map<std::string, int>& node_of_name);
 
 }  // namespace vindu

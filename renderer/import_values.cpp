@@ -5,6 +5,15 @@
 
 namespace vindu {
 
+Eigen::Matrix4f matrix_of(const aiMatrix4x4& m) {
+  Eigen::Matrix4f matrix;
+  matrix << m.a1, m.a2, m.a3, m.a4,  //
+      m.b1, m.b2, m.b3, m.b4,        //
+      m.c1, m.c2, m.c3, m.c4,        //
+      0, 0, 0, 1;
+  return matrix;
+}
+
 std::optional<float> number(const aiMaterial& material, const char* key, unsigned type,
                             unsigned index) {
   float value = 0;

@@ -1,7 +1,8 @@
-// Single properties of Assimp's materials, where they are there and sound.
+// Single values of Assimp's: properties of materials, where they are there and sound; matrices.
 #pragma once
 
 #include <assimp/material.h>
+#include <assimp/matrix4x4.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -10,6 +11,9 @@
 #include "renderer/scene.h"
 
 namespace vindu {
+
+/// Assimp's is row-major, its last row (0, 0, 0, 1).
+Eigen::Matrix4f matrix_of(const aiMatrix4x4& m);
 
 /// Keys, types and indices are those of Assimp's AI_MATKEY macros.
 std::optional<float> number(const aiMaterial& material, const char* key, unsigned type,

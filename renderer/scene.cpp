@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/skinning.h"
+
 namespace vindu {
 namespace {
 
@@ -86,10 +88,11 @@ float linear_from_srgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s) {
+std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s,
+                                             int clip) {
   std::vector<Eigen::Matrix4f> transforms = transforms_at_rest(scene.nodes);
-  if (!scene.animations.empty()) {
-    const Animation& animation = scene.animations.front();
+  if (clip >= 0 && static_cast<std::size_t>(clip) < scene.animations.size()) {
+    const Animation& animation = scene.animations[static_cast<std::size_t>(clip)];
     const double t_s = wrapped(animation_time_s, animation.duration_s);
     for (const AnimationChannel& channel : animation.channels)
       transforms[channel.node] = animated(channel, transforms[channel.node], t_s);
@@ -101,13 +104,18 @@ std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animatio
 Box3f bounds_in_scene(const Scene& scene) {
   std::vector<Eigen::Matrix4f> transforms = transforms_at_rest(scene.nodes);
   compose(scene.nodes, transforms);
+  const std::vector<Eigen::Matrix4f> joints = joint_transforms(scene.skin, transforms);
   Box3f bounds;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
     for (const int index : scene.nodes[i].meshes) {
       const Mesh& mesh = scene.meshes[index];
       const Eigen::Affine3f scene_from_node(transforms[i]);
-      for (std::uint32_t at = mesh.first_index; at < mesh.first_index + mesh.index_count; ++at)
-        bounds.extend(scene_from_node * scene.vertices[scene.indices[at]].position_in_node);
+      for (std::uint32_t at = mesh.first_index; at < mesh.first_index + mesh.index_count; ++at) {
+        const std::uint32_t vertex = scene.indices[at];
+        const Eigen::Vector3f& position = scene.vertices[vertex].position_in_node;
+        bounds.extend(mesh.skinned ? skinned(position, scene.skin.influences[vertex], joints)
+                                   : Eigen::Vector3f(scene_from_node * position));
+      }
     }
   return bounds;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "renderer/image.h"
+#include "renderer/skin.h"
 
 namespace vindu {
 
@@ -77,6 +78,8 @@ struct Mesh {
   std::uint32_t index_count = 0;  ///< triangles: a multiple of 3; indices are absolute
   int material = 0;
   Box3f bounds_in_node;
+  bool skinned =
+      false;  ///< Skin moves its vertices, which are not in node but in the mesh's own frame
 };
 
 /// Parents come before their children; node 0 is the root.
@@ -123,14 +126,17 @@ struct Scene {
   std::vector<Image> textures;
   std::vector<Node> nodes;
   std::vector<Animation> animations;
+  Skin skin;
   ColourCoding colours = ColourCoding::linear;
   std::optional<double> metres_per_unit;  ///< empty: the file does not say
 
   std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
-/// scene_from_node of every node at a time, the first animation played round and round.
-std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s);
+/// scene_from_node of every node at a time, an animation played round and round; at rest where
+/// there is no animation of that number.
+std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s,
+                                             int clip = 0);
 
 /// Of all triangles at rest.
 Box3f bounds_in_scene(const Scene& scene);

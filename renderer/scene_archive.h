@@ -24,6 +24,8 @@ constexpr bool kPlain = std::is_arithmetic_v<Type> || std::is_enum_v<Type>;
 template <>
 constexpr bool kPlain<Vertex> = sizeof(Vertex) == 60;
 template <>
+constexpr bool kPlain<Influences> = sizeof(Influences) == 16;
+template <>
 constexpr bool kPlain<Rgba8> = true;
 template <class Scalar, int Rows, int Columns>
 constexpr bool kPlain<Eigen::Matrix<Scalar, Rows, Columns>> = Rows > 0 && Columns > 0;
@@ -165,7 +167,7 @@ void fields(Archive& archive, Material& material) {
 
 template <class Archive>
 void fields(Archive& archive, Mesh& mesh) {
-  archive(mesh.first_index, mesh.index_count, mesh.material, mesh.bounds_in_node);
+  archive(mesh.first_index, mesh.index_count, mesh.material, mesh.bounds_in_node, mesh.skinned);
 }
 
 template <class Archive>
@@ -189,9 +191,19 @@ void fields(Archive& archive, Animation& animation) {
 }
 
 template <class Archive>
+void fields(Archive& archive, Joint& joint) {
+  archive(joint.node, joint.joint_from_mesh);
+}
+
+template <class Archive>
+void fields(Archive& archive, Skin& skin) {
+  archive(skin.joints, skin.influences);
+}
+
+template <class Archive>
 void fields(Archive& archive, Scene& scene) {
   archive(scene.name, scene.vertices, scene.indices, scene.meshes, scene.materials, scene.textures,
-          scene.nodes, scene.animations, scene.colours, scene.metres_per_unit);
+          scene.nodes, scene.animations, scene.skin, scene.colours, scene.metres_per_unit);
 }
 
 template <class Archive>

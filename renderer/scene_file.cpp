@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'V', 'S', 'C', 'E', 'N', 'E', '\r', '\n'};
 /// To be raised with any change of what scene_archive.h describes.
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 
 struct Header {
   std::array<char, 8> magic{};
@@ -113,6 +113,32 @@ bool lies_within(const Mesh& mesh, const Scene& scene) {
          within(mesh.material, scene.materials.size());
 }
 
+/// What they weigh is more than a question of looks: bounds count on a blend of whole weights.
+bool are_sound(const Influences& influences, std::size_t joints) {
+  int sum = 0;
+  for (std::size_t i = 0; i < influences.joints.size(); ++i) {
+    sum += influences.weights[i];
+    if (influences.joints[i] >= joints) return false;
+  }
+  return sum == kFullWeight;
+}
+
+std::string fault_of_skin(const Scene& scene) {
+  const auto& [joints, influences] = scene.skin;
+  if (joints.size() > kMaxJoints) return "there are more joints than fit";
+  for (const Joint& joint : joints)
+    if (!within(joint.node, scene.nodes.size()) || !joint.joint_from_mesh.allFinite())
+      return "a joint is no node, or nowhere";
+  if (!influences.empty() && influences.size() != scene.vertices.size())
+    return "some vertices have joints and others not";
+  for (const Mesh& mesh : scene.meshes)
+    for (std::uint32_t i = 0; mesh.skinned && i < mesh.index_count; ++i)
+      if (influences.empty() ||
+          !are_sound(influences[scene.indices[mesh.first_index + i]], joints.size()))
+        return "a vertex follows no joint, or one that is not there";
+  return "";
+}
+
 }  // namespace
 
 std::string fault_of(const Scene& scene) {
@@ -136,7 +162,8 @@ std::string fault_of(const Scene& scene) {
   for (const Animation& animation : scene.animations)
     for (const AnimationChannel& channel : animation.channels)
       if (!within(channel.node, scene.nodes.size())) return "an animation moves no node";
-  return scene.nodes.empty() ? "there is no node" : "";
+  if (scene.nodes.empty()) return "there is no node";
+  return fault_of_skin(scene);
 }
 
 void write_scene_file(const PackedScene& packed, const std::string& file) {

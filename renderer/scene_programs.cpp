@@ -5,15 +5,16 @@
 namespace vindu {
 namespace {
 
-constexpr std::array<const char*, 9> kNames = {"BASE_COLOUR_TEXTURE",
-                                               "METALLIC_ROUGHNESS_TEXTURE",
-                                               "NORMAL_TEXTURE",
-                                               "OCCLUSION_TEXTURE",
-                                               "EMISSIVE_TEXTURE",
-                                               "SECOND_UV",
-                                               "UNLIT",
-                                               "MASKED",
-                                               "SHADOWED"};
+constexpr std::array<const char*, 10> kNames = {"BASE_COLOUR_TEXTURE",
+                                                "METALLIC_ROUGHNESS_TEXTURE",
+                                                "NORMAL_TEXTURE",
+                                                "OCCLUSION_TEXTURE",
+                                                "EMISSIVE_TEXTURE",
+                                                "SECOND_UV",
+                                                "UNLIT",
+                                                "MASKED",
+                                                "SHADOWED",
+                                                "SKINNED"};
 
 }  // namespace
 

@@ -73,9 +73,11 @@ void SceneRenderer::draw_scene(const Pass& pass, const GpuScene& scene, DrawCoun
     if (in_use != kind) use_program(pass, kind);
     in_use = kind;
     scene.bind(draw, kind);
-    glFrontFace(scene.mirrored(draw.node) ? GL_CW : GL_CCW);
-    (draw.double_sided && !pass.blended ? glDisable : glEnable)(GL_CULL_FACE);
-    if (draw.double_sided && pass.blended) {  // the far side shines through the near one
+    const GpuScene::Facing facing = scene.facing(draw);
+    const bool both_sides = draw.double_sided || facing == GpuScene::Facing::mixed;
+    glFrontFace(facing == GpuScene::Facing::mirrored ? GL_CW : GL_CCW);
+    (both_sides && !pass.blended ? glDisable : glEnable)(GL_CULL_FACE);
+    if (both_sides && pass.blended) {  // the far side shines through the near one
       glCullFace(GL_FRONT);
       batch.draw();
       glCullFace(GL_BACK);

@@ -33,10 +33,10 @@ double in_steps(double length) { return std::exp2(std::ceil(4 * std::log2(length
 /// Room for the filter and for moving the corner to a whole texel.
 constexpr int kMargin_px = 4;
 
-/// Of what a caster's program must know: where its mask has holes.
+/// Of what a caster's program must know: what moves it, and where its mask has holes.
 SurfaceKind caster_kind(SurfaceKind kind) {
   constexpr SurfaceKind mask = kMasked | kSecondUv | textured(TextureRole::base_colour);
-  return kind & kMasked ? kind & mask : 0u;
+  return kind & (kind & kMasked ? mask | kSkinned : kSkinned);
 }
 
 }  // namespace

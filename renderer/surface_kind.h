@@ -14,9 +14,11 @@ constexpr SurfaceKind kSecondUv = 1u << 5;
 constexpr SurfaceKind kUnlit = 1u << 6;
 constexpr SurfaceKind kMasked = 1u << 7;
 constexpr SurfaceKind kShadowed = 1u << 8;  ///< the key light may be hidden
+constexpr SurfaceKind kSkinned = 1u << 9;   ///< joints move its vertices
 
 /// What counts where all is unlit, for measuring.
-constexpr SurfaceKind kMeasured = textured(TextureRole::base_colour) | kSecondUv | kMasked;
+constexpr SurfaceKind kMeasured =
+    textured(TextureRole::base_colour) | kSecondUv | kMasked | kSkinned;
 
 /// An unlit one has no other texture than that of its base colour.
 SurfaceKind kind_of(const Material& material);

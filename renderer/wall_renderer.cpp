@@ -111,7 +111,8 @@ void WallRenderer::draw_scene(const FrameState& state, std::span<const std::size
                               WallFrame& frame) {
   const Navigation& navigation = state.navigation;
   if (scene_)
-    scene_->pose(matrix_of(navigation.wall_from_scene, navigation.scale), state.animation_time_s);
+    scene_->pose(matrix_of(navigation.wall_from_scene, navigation.scale), state.animation_time_s,
+                 state.clip);
   update_shadow(state, tiles);
   const std::size_t together = static_cast<std::size_t>(cells_x_) * cells_y_;
   for (std::size_t first = 0; first < tiles.size(); first += together)

@@ -36,6 +36,8 @@ TEST(FrameHash, ChangesWithEveryField) {
       [](FrameState& state) { state.navigation.wall_from_scene.translation.z() += 1e-9; },
       [](FrameState& state) { state.navigation.scale += 1e-9; },
       [](FrameState& state) { state.animation_time_s += 1e-9; },
+      [](FrameState& state) { state.clip = 1; },
+      [](FrameState& state) { state.clip = -1; },
       [](FrameState& state) { state.mode = Mode::loop; },
       [](FrameState& state) { state.overlays = kStatistics; },
       [](FrameState& state) { state.pattern = Pattern::grid; },

@@ -104,6 +104,27 @@ TEST_F(Golden, MetallicRoughnessGltfModel) {
 
 TEST_F(Golden, PlyScan) { EXPECT_EQ(complaint_about(model("PLY/Wuson.ply"), "model-ply"), ""); }
 
+/// A wolf of 37 bones that runs and that walks, twice each.
+TEST_F(Golden, SkinnedCharacterAtFourTimes) {
+  Scene scene = import_scene("/usr/share/assimp/models/X/Testwuson.X").scene;
+  cut_into_chunks(scene);
+  const Wall screen = single_screen(1.6, 0.9, 320, 180);
+  WallRenderer wall(screen, 1, Look{Style::lit});
+  wall.show(scene);
+  Image all = Image::filled(4 * 320, 180, {});
+  int x = 0;
+  for (const auto& [clip, time_s] : {std::pair(0, 0.1), {0, 0.5}, {1, 0.4}, {1, 2.2}}) {
+    FrameState state =
+        seen_from({0.9, 0.4, 1.2}, place_scene(scene, Placement::fit, screen).navigation);
+    state.clip = clip;
+    state.animation_time_s = time_s;
+    wall.draw(state);
+    paste(wall.picture().read(), x, 0, all);
+    x += 320;
+  }
+  EXPECT_EQ(complaint_about(all, "model-skinned"), "");
+}
+
 /// For a projector behind the screen that hangs upright: mirrored, then turned.
 TEST_F(Golden, ShowForAMirroredAndTurnedProjector) {
   WallRenderer wall(small_screen(), 1, Look{Style::lit});

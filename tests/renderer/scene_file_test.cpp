@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -26,7 +27,10 @@ PackedScene small_scene() {
   scene.vertices[1].position_in_node = {1, 2, 3};
   scene.vertices[2].colour = {1, 2, 3, 4};
   scene.indices = {0, 1, 2};
-  scene.meshes = {{0, 3, 0, Box3f(Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1, 2, 3))}};
+  scene.meshes = {{0, 3, 0, Box3f(Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1, 2, 3)), true}};
+  scene.skin.joints.resize(2);
+  scene.skin.joints[1] = {1, 2 * Eigen::Matrix4f::Identity()};
+  scene.skin.influences.assign(3, {{1, 0, 0, 0}, {60000, kFullWeight - 60000, 0, 0}});
   scene.textures = {Image::filled(2, 3, {9, 8, 7, 6})};
   Material material{.name = "red", .roughness = 0.25f};
   material.texture(TextureRole::normal) = {.image = 0, .uv_set = 1, .wrap_v = Wrap::clamp};
@@ -83,6 +87,10 @@ TEST_F(SceneFile, BringsBackAllThatWasWritten) {
   EXPECT_EQ(scene.materials[0].texture(TextureRole::normal).wrap_v, Wrap::clamp);
   EXPECT_TRUE(scene.materials[0].double_sided);
   EXPECT_EQ(scene.nodes[1].parent, 0);
+  EXPECT_TRUE(scene.meshes[0].skinned);
+  EXPECT_EQ(scene.skin.joints[1].node, 1);
+  EXPECT_EQ(scene.skin.joints[1].joint_from_mesh, 2 * Eigen::Matrix4f::Identity());
+  EXPECT_EQ(scene.skin.influences[2].weights[0], 60000);
   EXPECT_EQ(scene.animations[0].channels[0].rotations[0].value.x(), 1);
   EXPECT_EQ(scene.colours, ColourCoding::srgb);
   EXPECT_EQ(scene.metres_per_unit, 0.01);
@@ -144,6 +152,18 @@ TEST(FaultOf, NamesWhatCannotBeDrawn) {
               HasSubstr("texture"));
   EXPECT_THAT(fault_after([](Scene& scene) { scene.animations[0].channels[0].node = 2; }),
               HasSubstr("animation"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.skin.joints[1].node = 2; }), HasSubstr("joint"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.skin.joints[1].joint_from_mesh(0, 3) = NAN; }),
+              HasSubstr("joint"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.skin.joints.resize(kMaxJoints + 1); }),
+              HasSubstr("joints"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.skin.influences.pop_back(); }),
+              HasSubstr("joints"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.skin.influences.clear(); }), HasSubstr("joint"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.skin.influences[1].joints[3] = 2; }),
+              HasSubstr("joint"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.skin.influences[1].weights[0] = 59999; }),
+              HasSubstr("joint"));
   EXPECT_THAT(fault_after([](Scene& scene) { scene.nodes.clear(); }), HasSubstr("node"));
 }
 
