@@ -29,6 +29,7 @@ void add_launch(CLI::App& parent, Action& chosen);
 void add_status(CLI::App& parent, Action& chosen);
 void add_show(CLI::App& parent, Action& chosen);
 void add_mode(CLI::App& parent, Action& chosen);
+void add_clip_command(CLI::App& parent, Action& chosen);
 void add_goto(CLI::App& parent, Action& chosen);
 void add_pattern(CLI::App& parent, Action& chosen);
 void add_blank(CLI::App& parent, Action& chosen);

@@ -12,6 +12,7 @@
 #include "app/packer.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "renderer/clips.h"
 #include "renderer/resources.h"
 #include "renderer/surface.h"
 #include "renderer/view.h"
@@ -38,7 +39,15 @@ Navigation place_show(const Wall& wall) {
 LoadedScene place(Scene scene, Placement placement, const Wall& wall) {
   PlacedScene placed = place_scene(scene, placement, wall);
   if (!placed.remark.empty()) log_info(scene.name, placed.remark);
-  return {std::move(scene), placed.navigation};
+  return {std::move(scene), placed.navigation, 0};
+}
+
+LoadedScene place_as_wished(Scene scene, const std::string& model,
+                            std::optional<Placement> placement, const Site& site) {
+  const bool show = model.empty() && site.scene.model.empty();
+  if (show && !placement) return {std::move(scene), place_show(site.wall), 0};
+  const Placement wanted = model.empty() ? site.scene.place : Placement::fit;
+  return place(std::move(scene), placement.value_or(wanted), site.wall);
 }
 
 }  // namespace
@@ -101,6 +110,14 @@ CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value) {
       ->type_name("fit|life-size|as-is");
 }
 
+CLI::Option* add_clip(CLI::App& app, std::string& value) {
+  return app
+      .add_option("--clip", value,
+                  "Which of the model's animations plays, by name or number (vindu pack lists\n"
+                  "them), or rest (default: the first)")
+      ->type_name("NAME|N");
+}
+
 Site load_site(const std::string& wall_file) {
   return read_site(wall_file.empty() ? find_asset("walls/tromso.toml") : wall_file);
 }
@@ -160,15 +177,14 @@ Scene read_model(const std::string& file) {
 }
 
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
-                       const Site& site) {
-  const bool show = model.empty() && site.scene.model.empty();
-  const std::string file = show            ? find_asset("show/show.glb")
-                           : model.empty() ? site.scene.model
-                                           : model;
+                       const Site& site, const std::string& clip) {
+  const std::string wanted = model.empty() ? site.scene.model : model;
+  const std::string file = wanted.empty() ? find_asset("show/show.glb") : wanted;
   Scene scene = read_model(file);
-  if (show && !placement) return {std::move(scene), place_show(site.wall)};
-  const Placement wanted = model.empty() ? site.scene.place : Placement::fit;
-  return place(std::move(scene), placement.value_or(wanted), site.wall);
+  const int chosen = find_clip(clip_names(scene), clip, file);
+  LoadedScene loaded = place_as_wished(std::move(scene), model, placement, site);
+  loaded.clip = chosen;
+  return loaded;
 }
 
 }  // namespace vindu::app

@@ -36,6 +36,8 @@ CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value);
 CLI::Option* add_pattern_choice(CLI::App& app, Pattern& value);
 /// "none", "grid", ...
 std::vector<std::string> pattern_names();
+/// --clip NAME|N
+CLI::Option* add_clip(CLI::App& app, std::string& value);
 
 /// The wall file, or the Tromsø wall that comes with Vindu when the name is empty.
 Site load_site(const std::string& wall_file);
@@ -62,6 +64,7 @@ TileCorners content_corners(const Tile& tile, const Window& window);
 struct LoadedScene {
   Scene scene;
   Navigation navigation;
+  int clip = 0;
 };
 
 /// A scene's path as tiles are told it, on this host: "asset:..." is part of every installation.
@@ -71,8 +74,9 @@ std::string model_file(const std::string& path);
 Scene read_model(const std::string& file);
 
 /// Reads a model and places it before the wall; warnings and the placement are logged. An empty
-/// name is the wall file's scene or, where it names none, the show.
+/// name is the wall file's scene or, where it names none, the show. `clip`: see find_clip(). Throws
+/// Error for one that the model does not have.
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
-                       const Site& site);
+                       const Site& site, const std::string& clip = "");
 
 }  // namespace vindu::app

@@ -27,6 +27,7 @@ struct LoopOptions {
   std::optional<Duration> length;  ///< empty: until the surface is closed
   Navigation navigation;
   Pattern pattern = Pattern::none;
+  int clip = 0;
 };
 
 struct LoopResult {

@@ -92,6 +92,8 @@ CLI::Option* hand_on(CLI::App& app, const std::string& name, std::vector<std::st
 void add_handed_on(CLI::App& app, LaunchCommand& command) {
   hand_on(app, "--place", command.master_options, "Of the model; as of vindu master")
       ->check(CLI::IsMember({"fit", "life-size", "as-is"}));
+  hand_on(app, "--clip", command.master_options, "Of the model; as of vindu master")
+      ->type_name("NAME|N");
   hand_on(app, "--mode", command.master_options,
           "track: the eye is tracked; loop: it follows a path; touch: it follows a hand")
       ->check(CLI::IsMember({"track", "loop", "touch"}));

@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
   vindu::app::add_status(app, chosen);
   vindu::app::add_show(app, chosen);
   vindu::app::add_mode(app, chosen);
+  vindu::app::add_clip_command(app, chosen);
   vindu::app::add_goto(app, chosen);
   vindu::app::add_touch(app, chosen);
   vindu::app::add_pattern(app, chosen);

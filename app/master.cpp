@@ -23,6 +23,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/sha256.h"
+#include "renderer/clips.h"
 #include "renderer/resources.h"
 #include "tracker/eye_rest.h"
 
@@ -33,6 +34,7 @@ struct MasterCommand {
   std::string model;
   std::string wall_file;
   std::string path_file;
+  std::string clip;
   std::string mode = "track";
   std::optional<Placement> place;
   std::optional<double> seconds;
@@ -57,18 +59,25 @@ std::string path_for_tiles(const std::string& model, const Site& site) {
   return file.empty() ? "asset:show/show.glb" : std::filesystem::absolute(file).string();
 }
 
-/// What the master has to know of a scene.
+/// A scene as it is shown: where it stands, and what it plays.
 struct Stage {
   Navigation navigation;
-  bool plays = false;  // it has an animation
   Box3f box_in_scene;
+  std::vector<std::string> clips;
+  int clip = 0;
+  std::string model;
+  Time clip_start{};
+
+  /// So that every frame shows something else.
+  bool plays() const { return clip >= 0 && static_cast<std::size_t>(clip) < clips.size(); }
+  /// Of the box, in wall.
+  std::array<Vec3, 8> corners_in_wall() const;
 };
 
-/// Of the box, in wall.
-std::array<Vec3, 8> corners_of(const Stage& stage, const Navigation& navigation) {
+std::array<Vec3, 8> Stage::corners_in_wall() const {
   std::array<Vec3, 8> corners;
   for (int i = 0; i < 8; ++i) {
-    const Vec3 corner = stage.box_in_scene.corner(static_cast<Box3f::CornerType>(i)).cast<double>();
+    const Vec3 corner = box_in_scene.corner(static_cast<Box3f::CornerType>(i)).cast<double>();
     corners[static_cast<std::size_t>(i)] =
         navigation.wall_from_scene * Vec3(navigation.scale * corner);
   }
@@ -82,16 +91,19 @@ class Placing {
     Stage stage;
     std::string sha256;  // of the model
   };
+  struct Wish {
+    std::string model;
+    std::string clip;
+    std::optional<Placement> place;
+  };
 
-  void start(const std::string& model, std::optional<Placement> place, const Site& site) {
-    model_ = model;
-    place_ = place;
-    result_ = std::async(std::launch::async, [model, place, &site] {
-      const std::string file = model_file(path_for_tiles(model, site));
-      const LoadedScene loaded = load_scene(model, place, site);
-      return Placed{{.navigation = loaded.navigation,
-                     .plays = !loaded.scene.animations.empty(),
-                     .box_in_scene = bounds_in_scene(loaded.scene)},
+  void start(const Wish& wish, const Site& site) {
+    wish_ = wish;
+    result_ = std::async(std::launch::async, [wish, &site] {
+      const std::string file = model_file(path_for_tiles(wish.model, site));
+      const LoadedScene loaded = load_scene(wish.model, wish.place, site, wish.clip);
+      return Placed{{loaded.navigation, bounds_in_scene(loaded.scene), clip_names(loaded.scene),
+                     loaded.clip, loaded.scene.name},
                     sha256_of_file(file).value_or("")};
     });
   }
@@ -99,14 +111,12 @@ class Placing {
   bool done() const {
     return running() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }
-  const std::string& model() const { return model_; }
-  std::optional<Placement> place() const { return place_; }
+  const Wish& wish() const { return wish_; }
   /// Throws what reading threw.
   Placed take() { return result_.get(); }
 
  private:
-  std::string model_;
-  std::optional<Placement> place_;
+  Wish wish_;
   std::future<Placed> result_;
 };
 
@@ -132,7 +142,7 @@ class MasterRun {
         pattern_(command.pattern),
         figures_(tile_names(site.wall), display_latency(), command.csv_file) {
     set_mode(command.mode, command.path_file);
-    placing_.start(command.model, command.place, site);
+    placing_.start({command.model, command.clip, command.place}, site);
   }
 
   /// Throws Error when the first scene cannot be read.
@@ -200,10 +210,8 @@ class MasterRun {
   void on_tick(Time now) {
     if (wall_.shown_scene() != staged_scene_) {
       staged_scene_ = wall_.shown_scene();
-      if (const auto found = stages_.find(staged_scene_); found != stages_.end()) {
+      if (const auto found = stages_.find(staged_scene_); found != stages_.end())
         stage_ = found->second;
-        navigation_ = stage_.navigation;
-      }
       glide_.reset();
     }
     glide(now);
@@ -214,8 +222,9 @@ class MasterRun {
     const FrameState state = {
         .photon_time = photon,
         .eye_in_wall = at_rest(eye, now),
-        .navigation = navigation_,
-        .animation_time_s = stage_.plays ? seconds(now.time_since_epoch()) : 0,
+        .navigation = stage_.navigation,
+        .animation_time_s = stage_.plays() ? seconds(now - stage_.clip_start) : 0,
+        .clip = stage_.clip,
         .mode = eye.mode,
         .overlays = overlays_,
         .pattern = pattern_,
@@ -238,8 +247,7 @@ class MasterRun {
 
   /// The eye to show: the tracked one, without its trembling.
   Vec3 at_rest(const EyeNow& eye, Time now) {
-    const double slack_m =
-        eye_slack_m(site_.wall, eye.eye_in_wall, corners_of(stage_, navigation_));
+    const double slack_m = eye_slack_m(site_.wall, eye.eye_in_wall, stage_.corners_in_wall());
     double sigma_m = 0;
     if (eye.pose && !site_.heads.empty())
       sigma_m = eye_sigma_m(
@@ -278,9 +286,9 @@ class MasterRun {
     if (!placing_.done()) return;
     try {
       const Placing::Placed placed = placing_.take();
-      const Placement place = placing_.place().value_or(Placement::fit);
+      const auto& [model, clip, place] = placing_.wish();
       const std::uint64_t revision =
-          wall_.show(path_for_tiles(placing_.model(), site_), placed.sha256, place);
+          wall_.show(path_for_tiles(model, site_), placed.sha256, place.value_or(Placement::fit));
       stages_[revision] = placed.stage;
       reply(asked_scene_, true, "");
     } catch (const Error& error) {
@@ -309,7 +317,10 @@ class MasterRun {
         if (placing_.running())
           return reply(command, false, "another scene is being read; ask again");
         asked_scene_ = command;
-        return placing_.start(command.argument, std::nullopt, site_);
+        return placing_.start({command.argument, command.clip, std::nullopt}, site_);
+      case Verb::clip:
+        play(command.argument);
+        break;
       case Verb::mode:
         set_mode(command.argument, "");
         break;
@@ -332,19 +343,28 @@ class MasterRun {
     reply(command, true, "");
   }
 
+  /// From its beginning, in the frames from now on.
+  void play(const std::string& clip) {
+    if (stage_.model.empty()) throw Error({"shows no model yet", "the wall", "ask again"});
+    stage_.clip = find_clip(stage_.clips, clip, stage_.model);
+    stage_.clip_start = clock_.now();
+  }
+
   /// "x,y,z" of the scene, to the middle of the wall, within a second.
   void go_to(const std::string& argument) {
     const auto point = vec3_from(argument);
     if (!point) throw Error({"\"" + argument + "\" is no point", "goto", "write x,y,z"});
-    glide_ = {navigation_.wall_from_scene.translation,
-              -(navigation_.wall_from_scene.rotation * (navigation_.scale * *point)), clock_.now()};
+    glide_ = {stage_.navigation.wall_from_scene.translation,
+              -(stage_.navigation.wall_from_scene.rotation * (stage_.navigation.scale * *point)),
+              clock_.now()};
   }
 
   void glide(Time now) {
     if (!glide_) return;
     const double share = std::clamp(seconds(now - glide_->start), 0.0, 1.0);
     const double eased = share * share * (3 - 2 * share);
-    navigation_.wall_from_scene.translation = glide_->from + eased * (glide_->to - glide_->from);
+    stage_.navigation.wall_from_scene.translation =
+        glide_->from + eased * (glide_->to - glide_->from);
     if (share >= 1) glide_.reset();
   }
 
@@ -383,8 +403,7 @@ class MasterRun {
   CommandMessage asked_scene_;  // answered when it could be read; request 0: the first one
   std::map<std::uint64_t, Stage> stages_;  // by scene
   std::uint64_t staged_scene_ = 0;
-  Stage stage_;            // of the scene that is shown
-  Navigation navigation_;  // from where it stood first
+  Stage stage_;  // of the scene that is shown
   EyeRest rest_;
   struct Glide {
     Vec3 from, to;  // translation of wall_from_scene
@@ -419,6 +438,7 @@ void add_master(CLI::App& parent, Action& chosen) {
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
   add_place(*app, command->place);
+  add_clip(*app, command->clip);
   app->add_option("--mode", command->mode,
                   "track: the eye is tracked; touch: it follows a hand (vindu touch);\n"
                   "loop: it follows a path")

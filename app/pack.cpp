@@ -13,6 +13,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/sha256.h"
+#include "renderer/clips.h"
 #include "renderer/scene_cache.h"
 
 namespace vindu::app {
@@ -68,6 +69,11 @@ void say(const std::string& model, const std::string& file, Duration took) {
   fmt::print("{}: {} triangles, {} textures, {} animations; {:.1f} MiB in {:.2f} s: {}\n", model,
              scene.triangle_count(), scene.textures.size(), scene.animations.size(),
              static_cast<double>(std::filesystem::file_size(file)) / 1048576, seconds(took), file);
+  std::vector<std::string> clips = clip_names(scene);
+  for (std::size_t i = 0; i < clips.size(); ++i)
+    clips[i] = (clips[i].empty() ? "(no name)" : clips[i]) +
+               fmt::format(" ({:.2f} s)", scene.animations[i].duration_s);
+  if (!clips.empty()) fmt::print("  clips: {}\n", listed(clips));
   for (const std::string& warning : packed.imported.warnings) fmt::print("  {}\n", warning);
 }
 

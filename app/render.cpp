@@ -20,6 +20,7 @@ struct RenderOptions {
   std::string wall_file;
   std::string tile;
   std::string out = "out";
+  std::string clip;
   std::optional<Vec3> eye;
   std::optional<Placement> place;
   std::optional<int> device;
@@ -62,7 +63,7 @@ int render(const RenderOptions& options) {
                    .animation_time_s = options.time_s,
                    .pattern = options.pattern};
   std::optional<LoadedScene> loaded;
-  if (shows_model(state)) loaded = load_scene(options.model, options.place, site);
+  if (shows_model(state)) loaded = load_scene(options.model, options.place, site, options.clip);
   make_folder(options.out);
   const auto surface = make_headless_surface({.device = options.device});
   log_debug("render", gl_description());
@@ -70,6 +71,7 @@ int render(const RenderOptions& options) {
   if (loaded) {
     wall.show(loaded->scene);
     state.navigation = loaded->navigation;
+    state.clip = loaded->clip;
   }
   const WallFrame frame = wall.draw(state, only);
   for (const std::string& name : frame.black_tiles)
@@ -107,6 +109,7 @@ void add_render(CLI::App& parent, Action& chosen) {
   app->add_option("--time", options->time_s,
                   "Animation time in seconds; of a pattern the photon time")
       ->check(between(0.0, 1e9));
+  add_clip(*app, options->clip);
   app->add_option("--device", options->device, "EGL device (GPU) by its index");
   app->add_option("--out", options->out, "Folder for the pictures (default: out)")
       ->type_name("DIR");
@@ -116,6 +119,7 @@ void add_render(CLI::App& parent, Action& chosen) {
       "\nExamples:\n"
       "  vindu render model.glb --wall wall.toml --eye -1,0.1,2 --scale 0.25 --out pictures\n"
       "  vindu render scan.ply --tile tile-3-1 --place life-size\n"
+      "  vindu render wolf.x --clip Walk --time 0.5\n"
       "  vindu render --pattern grid --wall wall.toml --scale 0.25\n");
   app->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }

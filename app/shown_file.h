@@ -13,8 +13,9 @@ namespace vindu::app {
 
 class ShownFile {
  public:
-  /// Without a path nothing is wanted. In a folder (one that is there, or a path that ends in "/") it
-  /// is a new file for each start: TILE-1.csv, TILE-2.csv. Throws Error when it cannot be written.
+  /// Without a path nothing is wanted. In a folder (one that is there, or a path that ends in "/")
+  /// it is a new file for each start: TILE-1.csv, TILE-2.csv. Throws Error when it cannot be
+  /// written.
   ShownFile(const std::string& path, const std::string& tile);
 
   bool wanted() const { return stream_.is_open(); }

@@ -40,6 +40,7 @@ struct SimulateOptions {
   std::string clock = "real";
   std::string out = "out";
   std::string csv_file;
+  std::string clip;
   std::optional<Placement> place;
   std::optional<double> seconds;
   std::optional<double> scale;
@@ -90,7 +91,8 @@ double frame_s(const Run& run, double scale) {
   trial.show(run.loaded.scene);
   const MonotonicClock clock;
   FrameState state{.eye_in_wall = run.site.viewer.default_eye_in_wall,
-                   .navigation = run.loaded.navigation};
+                   .navigation = run.loaded.navigation,
+                   .clip = run.loaded.clip};
   std::vector<double> times_s;
   for (int frame = 0; frame < kWarmUp + kFrames; ++frame) {
     state.eye_in_wall.x() += 0.05;
@@ -144,7 +146,7 @@ Run assemble(const SimulateOptions& options) {
     throw Error({"names no [[camera]]", options.wall_file,
                  "add cameras with source = \"emulated\", or use --mode loop"});
   check_clock(options, run.site);
-  run.loaded = load_scene(options.model, options.place, run.site);
+  run.loaded = load_scene(options.model, options.place, run.site, options.clip);
   const bool manual = options.clock == "manual";
   if (manual)
     run.clock = std::make_unique<ManualClock>();
@@ -227,6 +229,7 @@ LoopResult play(Run& run) {
                    .display_latency = from_seconds(1e-3 * run.site.viewer.display_latency_ms),
                    .length = {},
                    .navigation = run.loaded.navigation,
+                   .clip = run.loaded.clip,
                    .pattern = run.options.pattern};
   auto* const window = dynamic_cast<Window*>(run.surface.get());
   if (run.options.seconds || !window) loop.length = from_seconds(run.options.seconds.value_or(15));
@@ -353,6 +356,7 @@ void add_simulate(CLI::App& parent, Action& chosen) {
       ->type_name("FILE");
   add_place(*app, options->place);
   add_pattern_choice(*app, options->pattern);
+  add_clip(*app, options->clip);
   app->add_option("--mode", options->mode, "track: the eye is tracked; loop: it follows a path")
       ->check(CLI::IsMember({"track", "loop"}));
   app->add_option("--path", options->path_file, "Camera path of loop mode")->type_name("FILE");

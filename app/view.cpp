@@ -27,6 +27,7 @@ struct ViewOptions {
   std::string wall_file;
   std::string path_file;
   std::string out = "out";
+  std::string clip;
   std::optional<Placement> place;
   std::optional<Vec3> eye;
   std::optional<double> seconds;
@@ -90,16 +91,19 @@ PersonOptions walk_before(const Wall& wall, Time start, std::uint64_t seed) {
 struct Shown {
   GpuScene scene;
   Navigation navigation;
+  int clip = 0;
 };
 
+/// `model` may be another one than the options', whose clip it then need not have.
 Shown load_shown(const std::string& model, const ViewOptions& options, const Site& site,
                  const TileCorners& content) {
   Site place_before = site;  // fitted to the window, not to the screen
   place_before.wall = single_screen(content.width_m(), content.height_m(), 1, 1);
-  LoadedScene loaded = load_scene(model, options.place, place_before);
+  LoadedScene loaded =
+      load_scene(model, options.place, place_before, model == options.model ? options.clip : "");
   const bool own_place = options.place == Placement::as_is;
   if (!own_place) loaded.navigation.wall_from_scene.translation += content.centre_in_wall();
-  return {GpuScene(loaded.scene, live_look()), loaded.navigation};
+  return {GpuScene(loaded.scene, live_look()), loaded.navigation, loaded.clip};
 }
 
 class Viewer {
@@ -132,7 +136,7 @@ class Viewer {
     const Tile content = content_tile(size);
     const auto view = tile_view(content.corners, state.eye_in_wall);
     shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
-                      state.animation_time_s);
+                      state.animation_time_s, shown_.clip);
     const GpuScene* scenes[] = {&shown_.scene};
     shadow_.update(scenes, shadow_region(site_.wall));
     canvas_->begin();
@@ -208,7 +212,8 @@ int view_as_picture(const ViewOptions& options) {
       options, {.name = "picture", .size = kPicture, .width_mm = 527, .height_mm = 296});
   const auto surface = make_headless_surface({.device = options.device});
   Shown shown = load_shown(options.model, options, site, site.wall.tiles.front().corners);
-  shown.scene.pose(matrix_of(shown.navigation.wall_from_scene, shown.navigation.scale), 0);
+  shown.scene.pose(matrix_of(shown.navigation.wall_from_scene, shown.navigation.scale), 0,
+                   shown.clip);
   const SceneRenderer renderer(Look{});
   ShadowMap shadow(Look{});
   Canvas canvas(kPicture, Look{});
@@ -299,6 +304,7 @@ void add_view(CLI::App& parent, Action& chosen) {
       ->type_name("WIDTH HEIGHT");
   add_place(*app, options->place);
   add_pattern_choice(*app, options->pattern);
+  add_clip(*app, options->clip);
   app->add_flag("--fullscreen", options->fullscreen, "Cover the screen");
   app->add_option("--seconds", options->seconds, "End by itself")->check(between(0.05, 1e6));
   app->add_option("--seed", options->seed, "Of the simulated walk");

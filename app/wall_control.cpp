@@ -1,5 +1,5 @@
-// vindu show, mode, goto, pattern, blank, overlay, stop: asked of the master of a running wall,
-// which says whether it did.
+// vindu show, clip, mode, goto, pattern, blank, overlay, stop: asked of the master of a running
+// wall, which says whether it did.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -19,6 +19,7 @@ namespace {
 struct ControlCommand {
   std::string wall_file;
   std::string argument;
+  std::string clip;
   std::string engine = "systemd";
   double timeout_s = 5;
 };
@@ -26,8 +27,8 @@ struct ControlCommand {
 int ask(const ControlCommand& command, Verb verb, const std::string& argument) {
   const Site site = load_site(command.wall_file);
   DdsTransport transport(network_of(site, Role::console));
-  const AnswerMessage answer =
-      ask_wall(transport, this_console(), {verb, argument}, from_seconds(command.timeout_s));
+  const AnswerMessage answer = ask_wall(transport, this_console(), {verb, argument, command.clip},
+                                        from_seconds(command.timeout_s));
   expect_done(answer);
   if (!answer.text.empty()) fmt::print("{}\n", answer.text);
   return 0;
@@ -50,8 +51,12 @@ void add_show(CLI::App& parent, Action& chosen) {
   app->add_option("MODEL", command->argument,
                   "Any model that Assimp reads, at this path on all hosts")
       ->required();
+  add_clip(*app, command->clip);
   add_common(*app, *command);
-  app->footer("\nExamples:\n  vindu show model.glb\n  vindu show scan.ply --wall wall.toml\n");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu show model.glb\n"
+      "  vindu show wolf.x --clip Walk --wall wall.toml\n");
   app->callback([command, &chosen] {
     chosen = [command] {
       return ask(*command, Verb::show, std::filesystem::absolute(command->argument));
@@ -59,10 +64,25 @@ void add_show(CLI::App& parent, Action& chosen) {
   });
 }
 
+void add_clip_command(CLI::App& parent, Action& chosen) {
+  auto command = std::make_shared<ControlCommand>();
+  CLI::App* app = parent.add_subcommand(
+      "clip", "Plays another animation of the model on a running wall, from its beginning");
+  app->add_option("CLIP", command->argument,
+                  "Its name or number, as vindu pack lists them, or rest: none")
+      ->required();
+  add_common(*app, *command);
+  app->footer("\nExamples:\n  vindu clip Walk\n  vindu clip 2 --wall wall.toml\n");
+  app->callback([command, &chosen] {
+    chosen = [command] { return ask(*command, Verb::clip, command->argument); };
+  });
+}
+
 void add_mode(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<ControlCommand>();
   CLI::App* app = parent.add_subcommand("mode", "How the eye moves on a running wall");
-  app->add_option("MODE", command->argument, "track: the eye is tracked; touch: it follows a hand (vindu touch);\n"
+  app->add_option("MODE", command->argument,
+                  "track: the eye is tracked; touch: it follows a hand (vindu touch);\n"
                   "loop: it follows a path")
       ->required()
       ->check(CLI::IsMember({"track", "touch", "loop"}));

@@ -35,7 +35,8 @@ AnswerMessage ask_wall(Transport& transport, const Participant& self, const Requ
       bus->publish(CommandMessage{.sender = self.name,
                                   .request = number,
                                   .verb = request.verb,
-                                  .argument = request.argument});
+                                  .argument = request.argument,
+                                  .clip = request.clip});
       next = std::chrono::steady_clock::now() + kRepeat;
     }
     bus->wait({Topic::answer, Topic::presence}, std::min(next, begin + patience));

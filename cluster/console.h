@@ -15,6 +15,7 @@ namespace vindu {
 struct Request {
   Verb verb = Verb::show;
   std::string argument{};
+  std::string clip{};  ///< as CommandMessage's
 };
 
 /// Asks as `self`, a name that no other console has. Returns the wall's answer, which may be a

@@ -146,7 +146,7 @@ struct EventMessage {
   std::string text{};
 };
 
-enum class Verb { show, mode, go_to, pattern, blank, stop, overlay };
+enum class Verb { show, mode, go_to, pattern, blank, stop, overlay, clip };
 
 /// Consoles to the master and tiles. An argument is data: it never reaches a shell.
 struct CommandMessage {
@@ -155,6 +155,7 @@ struct CommandMessage {
   Verb verb = Verb::show;
   std::string tile{};  ///< empty: the whole wall
   std::string argument{};
+  std::string clip{};  ///< of Verb::show: its name or number; empty: the first
 };
 
 struct AnswerMessage {

@@ -39,6 +39,8 @@ void fields(Op& op, Wire& wire, Value& state) {
   rigid_fields(op, wire.wall_from_scene, state.navigation.wall_from_scene);
   op.number(wire.scale, state.navigation.scale, kAboveZero);
   op.number(wire.animation_time_s, state.animation_time_s);
+  op.integer(wire.clip, state.clip);
+  op.require(state.clip >= -1);
   op.choice(wire.mode, state.mode, Mode::track);
   op.count(wire.overlays, state.overlays);
   op.choice(wire.pattern, state.pattern, Pattern::eye);
@@ -213,9 +215,10 @@ requires std::same_as<std::remove_const_t<Value>, CommandMessage>
 void fields(Op& op, Wire& wire, Value& command) {
   op.name(wire.sender, command.sender);
   op.id(wire.request, command.request);
-  op.choice(wire.verb, command.verb, Verb::overlay);
+  op.choice(wire.verb, command.verb, Verb::clip);
   op.whole_text(wire.tile, command.tile);
   op.whole_text(wire.argument, command.argument);
+  op.whole_text(wire.clip, command.clip);
 }
 
 template <class Op, class Wire, class Value>

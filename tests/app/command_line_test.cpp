@@ -46,8 +46,8 @@ INSTANTIATE_TEST_SUITE_P(CommandLine, CommandsAlone,
                          name_of_command);
 INSTANTIATE_TEST_SUITE_P(CommandLine, Commands,
                          ::testing::Values("view", "render", "simulate", "check", "launch",
-                                           "status", "show", "mode", "goto", "pattern", "overlay",
-                                           "stop", "restart", "logs", "deploy"),
+                                           "status", "show", "clip", "mode", "goto", "pattern",
+                                           "overlay", "stop", "restart", "logs", "deploy"),
                          name_of_command);
 
 TEST_F(CommandLine, TellsTheVersion) {

@@ -45,6 +45,12 @@ TEST_F(PackCommand, ReadsAModelOnceForAllCommands) {
   EXPECT_THAT(said_, Not(HasSubstr("is packed, once")));
 }
 
+TEST_F(PackCommand, ListsTheClips) {
+  const ProcessResult result = pack({"/usr/share/assimp/models/X/Testwuson.X"});
+  EXPECT_THAT(result.out, HasSubstr("clips: 1 Wuson_Run (0.97 s), 2 Wuson_Walk (3.60 s)"));
+  EXPECT_THAT(pack({small_model()}).out, Not(HasSubstr("clips")));
+}
+
 TEST_F(PackCommand, ShowsAPackedSceneAsItsModel) {
   const std::string model = square("0.1 0.7 0.2");
   const std::string before = picture_of(model);

@@ -46,6 +46,36 @@ TEST_F(RenderCommand, WritesAllWithoutBeingAskedTo) {
   EXPECT_EQ(files_in("out"), all_files());
 }
 
+TEST_F(RenderCommand, DrawsTheClipAndTheTimeThatAreAskedFor) {
+  const auto picture = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"render",  "/usr/share/assimp/models/X/Testwuson.X",
+                                      "--scale", "0.05",
+                                      "--tile",  "tile-3-1",
+                                      "--out",   path("out")};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProcessResult result = vindu(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return bytes_of(path("out/tile-3-1.png"));
+  };
+  const std::string run = picture({"--time", "0.3"});
+  EXPECT_EQ(picture({"--time", "0.3", "--clip", "Wuson_Run"}), run);
+  EXPECT_EQ(picture({"--time", "0.3", "--clip", "1"}), run);
+  EXPECT_NE(picture({"--time", "0.6"}), run);
+  EXPECT_NE(picture({"--time", "0.3", "--clip", "2"}), run);
+  const std::string rest = picture({"--time", "0.3", "--clip", "rest"});
+  EXPECT_NE(rest, run);
+  EXPECT_EQ(picture({"--time", "0.6", "--clip", "rest"}), rest);
+}
+
+TEST_F(RenderCommand, SaysWhichClipsThereAre) {
+  const ProcessResult result = vindu(
+      {"render", "/usr/share/assimp/models/X/Testwuson.X", "--clip", "fly", "--out", path("out")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err,
+              HasSubstr("has no clip \"fly\"; choose 1 Wuson_Run, 2 Wuson_Walk, or rest"));
+  EXPECT_THAT(render({"--clip", "fly"}).err, HasSubstr("has no clips"));
+}
+
 TEST_F(RenderCommand, JoinsTheTilesInTheWallsPicture) {
   ASSERT_EQ(render({"--eye", "-0.5,0.3,1.2"}).exit_code, 0);
   const Image wall = read_png(path("out/wall.png"));

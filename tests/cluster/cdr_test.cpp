@@ -32,7 +32,7 @@ TEST(FrameStateCdr, ComesBackBitByBit) {
 TEST(FrameStateCdr, IsPlainLittleEndianCdrBehindItsHeader) {
   const Bytes bytes = to_cdr(FrameState{.number = 0x0102, .pattern = Pattern::bar, .blank = true});
 
-  EXPECT_EQ(bytes.size(), 4 + 8 * (2 + 3 + 4 + 3 + 2) + 4 + 3u);
+  EXPECT_EQ(bytes.size(), 4 + 8 * (2 + 3 + 4 + 3 + 2) + 4 + 4 + 3u);
   EXPECT_THAT(Bytes(bytes.begin(), bytes.begin() + 12),
               ::testing::ElementsAre(0, 1, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0));
   EXPECT_THAT(
@@ -65,6 +65,7 @@ TEST(FrameStateCdr, RefusesWhatIsNoState) {
   }
   EXPECT_TRUE(changed([](FrameState& state) { state.number = 0; }).empty());
   EXPECT_TRUE(changed([](FrameState& state) { state.navigation.scale = 0; }).empty());
+  EXPECT_TRUE(changed([](FrameState& state) { state.clip = -2; }).empty());
   EXPECT_TRUE(changed([](FrameState& state) { state.photon_time = Time::max(); }).empty());
 }
 
@@ -83,6 +84,7 @@ TEST(FrameStateCdr, RefusesTheSameFromOutside) {
   EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 3, {3}))) << "no mode";
   EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 2, {8}))) << "no pattern";
   EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 1, {2}))) << "neither blank nor not";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 4, {0x80}))) << "clip -2^31";
   EXPECT_FALSE(frame_state_from_cdr(with(1, {0}))) << "big endian";
   EXPECT_FALSE(frame_state_from_cdr(with(1, {9}))) << "another encoding";
 }

@@ -138,9 +138,10 @@ EventMessage event(Random& random) {
 CommandMessage command(Random& random) {
   return {.sender = text(random, 100),
           .request = id(random),
-          .verb = choice(random, Verb::overlay),
+          .verb = choice(random, Verb::clip),
           .tile = text(random, 60),
-          .argument = text(random, 1000)};
+          .argument = text(random, 1000),
+          .clip = text(random, 250)};
 }
 
 }  // namespace
@@ -153,6 +154,7 @@ FrameState random_state(Random& random) {
   state.navigation.wall_from_scene = {turn(random), point(random)};
   state.navigation.scale = random.uniform(1e-6, 1e6);
   state.animation_time_s = random.normal(1000);
+  state.clip = static_cast<int>(random.uniform(-1, 1000));
   state.mode = choice(random, Mode::track);
   state.overlays = random.uniform(0, 1) < 0.5 ? std::uint32_t{kStatistics} : 0;
   state.pattern = choice(random, Pattern::eye);

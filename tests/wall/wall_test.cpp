@@ -13,6 +13,7 @@
 #include <set>
 #include <thread>
 
+#include "cluster/dds.h"
 #include "renderer/image.h"
 #include "tests/app/osc_bytes.h"
 #include "tests/app/process.h"
@@ -403,7 +404,7 @@ TEST_F(WallTest, FollowsAHandThatATouchFrameReports) {
     return swaps.empty() ? 0.0 : std::stod(swaps.back().eye_x_m);
   };
   // Repeated, as senders do: the first ones come before the others know each other.
-  for (int frame = 1; std::abs(eye_x_m() - 0.5) > 1e-3; ++frame) {
+  for (int frame = 1; std::abs(eye_x_m() - 0.5) > 0.05; ++frame) {
     send_datagram(std::stoi(port),
                   bundle({source("frame"), alive({3}), set(3, frame % 2 ? 0.7f : 0.75f, 0.5f),
                           fseq(2 * frame)}));
@@ -416,6 +417,62 @@ TEST_F(WallTest, FollowsAHandThatATouchFrameReports) {
   EXPECT_EQ(touch.end(), 0);
   EXPECT_THAT(bytes_of(path("touch.log")), HasSubstr("1 messages were no TUIO"));
   EXPECT_TRUE(master.runs());
+  expect_right({"tile-0-0.csv"});
+}
+
+/// Hears the master as tiles do.
+class Listener {
+ public:
+  explicit Listener(const std::string& wall_file)
+      : transport_(dds_settings_of(read_site(wall_file).cluster)),
+        bus_(transport_.join({{.role = Role::console,
+                               .name = "listener-" + std::to_string(getpid()),
+                               .host = "here",
+                               .version = VINDU_VERSION},
+                              {},
+                              {Topic::frame}})) {}
+
+  /// The first one that plays this clip.
+  FrameState await_clip(int clip) {
+    while (true) {
+      bus_->wait({Topic::frame}, std::chrono::steady_clock::now() + std::chrono::milliseconds(100));
+      const auto frame = bus_->take_newest<FrameMessage>();
+      if (frame && frame->newest.clip == clip) return frame->newest;
+    }
+  }
+
+ private:
+  DdsTransport transport_;
+  std::unique_ptr<Bus> bus_;
+};
+
+TEST_F(WallTest, PlaysTheClipThatItIsToldAndRefusesOneThatIsNotThere) {
+  const std::string wolf = "/usr/share/assimp/models/X/Testwuson.X";
+  Child tile = start_tile("tile-0-0");
+  Child master({VINDU_PROGRAM, "master", wolf, "--clip", "Wuson_Walk", "--wall", wall_file_,
+                "--mode", "loop", "--pattern", "counter"},
+               path("master.log"));
+  await_swaps("tile-0-0.csv", 5);
+  Listener listener(wall_file_);
+  const auto ask = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--wall", wall_file_});
+    return vindu(words);
+  };
+  const FrameState walk = listener.await_clip(1);
+  EXPECT_EQ(ask({"clip", "Wuson_Run"}).exit_code, 0);
+  const FrameState run = listener.await_clip(0);
+  EXPECT_LT(run.animation_time_s, walk.animation_time_s) << "it begins anew";
+  EXPECT_EQ(ask({"clip", "2"}).exit_code, 0);
+  listener.await_clip(1);
+  const ProcessResult unknown = ask({"clip", "fly"});
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("1 Wuson_Run, 2 Wuson_Walk"));
+  EXPECT_EQ(ask({"show", wolf, "--clip", "fly"}).exit_code, 1);
+  EXPECT_EQ(ask({"show", wolf, "--clip", "rest"}).exit_code, 0);
+  listener.await_clip(-1);
+  await_swaps("tile-0-0.csv", 5);
+  EXPECT_EQ(ask({"stop"}).exit_code, 0);
+  EXPECT_EQ(master.end(), 0);
   expect_right({"tile-0-0.csv"});
 }
 
