@@ -21,6 +21,7 @@
 #include "renderer/chunks.h"
 #include "renderer/import.h"
 #include "renderer/import_file.h"
+#include "renderer/levels.h"
 #include "renderer/scene_cache.h"
 
 namespace vindu::app {
@@ -124,6 +125,7 @@ PackLimits limits_for(const std::string& model) {
 PackedScene import_packed(const std::string& model) {
   PackedScene packed{.imported = import_scene(model), .sources = {}};
   cut_into_chunks(packed.imported.scene);
+  make_levels(packed.imported.scene);
   for (const std::string& file : packed.imported.files)
     if (auto source = source_of(file)) packed.sources.push_back(std::move(*source));
   return packed;

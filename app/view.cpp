@@ -134,7 +134,8 @@ class Viewer {
       picture_ = std::make_unique<Picture>(size, Style::lit);
     }
     const Tile content = content_tile(size);
-    const auto view = tile_view(content.corners, state.eye_in_wall);
+    auto view = tile_view(content.corners, state.eye_in_wall);
+    if (view) view->detail = detail_need(content.corners, size, state.eye_in_wall);
     shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
                       state.animation_time_s, shown_.clip);
     const GpuScene* scenes[] = {&shown_.scene};
@@ -221,8 +222,9 @@ int view_as_picture(const ViewOptions& options) {
   const Vec3 eye = options.eye.value_or(site.viewer.default_eye_in_wall);
   const Tile& tile = site.wall.tiles.front();
   const FrameState state{.eye_in_wall = eye, .pattern = options.pattern};
-  const auto view = tile_view(tile.corners, eye);
+  auto view = tile_view(tile.corners, eye);
   if (!view) throw Error({"is at or behind the screen's plane", "--eye", "give an eye with z > 0"});
+  view->detail = detail_need(tile.corners, kPicture, eye);
   const GpuScene* scenes[] = {&shown.scene};
   shadow.update(scenes, shadow_region(site.wall));
   canvas.begin();

@@ -20,24 +20,6 @@ bool outside(const Mat4& clip_from_world, const Box3f& box) {
   return beyond(w - clip_from_world.row(2));
 }
 
-/// The draws of one kind, by distance from the eye: blended ones farthest first, by their middle,
-/// so that what is behind shines through; solid ones nearest first, by their nearest point, so that
-/// little is drawn twice. The eye decides, not the tile: neighbours agree.
-std::vector<const GpuScene::Draw*> sorted_draws(const GpuScene& scene, const Vec3& eye_in_world,
-                                                bool blended) {
-  std::vector<std::pair<double, const GpuScene::Draw*>> found;
-  for (const GpuScene::Draw& draw : scene.draws()) {
-    if ((draw.alpha_mode == AlphaMode::blend) != blended) continue;
-    const Box3f& box = scene.bounds_in_world(draw);
-    const Eigen::Vector3f eye = eye_in_world.cast<float>();
-    found.emplace_back(blended ? -(box.center() - eye).norm() : box.exteriorDistance(eye), &draw);
-  }
-  std::ranges::stable_sort(found, {}, &std::pair<double, const GpuScene::Draw*>::first);
-  std::vector<const GpuScene::Draw*> sorted;
-  for (const auto& [distance, draw] : found) sorted.push_back(draw);
-  return sorted;
-}
-
 bool alike(const GpuScene::Draw& a, const GpuScene::Draw& b) {
   return a.node == b.node && a.mesh.material == b.mesh.material && a.mesh.skinned == b.mesh.skinned;
 }
@@ -66,7 +48,8 @@ void add_to_batches(const GpuScene::Draw& draw, bool keep_order, std::vector<Bat
 std::vector<Batch> batches_in_view(const View& view, const GpuScene& scene, bool blended,
                                    DrawCount& count) {
   std::vector<Batch> batches;
-  for (const GpuScene::Draw* draw : sorted_draws(scene, view.eye_in_world, blended)) {
+  const GpuScene::Order& order = scene.order_for(view.eye_in_world, view.detail);
+  for (const GpuScene::Draw* draw : blended ? order.blended : order.solid) {
     const bool culled = outside(view.clip_from_world, scene.bounds_in_world(*draw));
     const std::uint64_t triangles = draw->mesh.index_count / 3;
     count += {1, culled, triangles, culled ? triangles : 0};

@@ -1,11 +1,13 @@
 #include "renderer/gpu_scene.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 
 #include "core/error.h"
@@ -91,6 +93,12 @@ std::vector<GpuVertex> gpu_vertices(const Scene& scene, Style style) {
   return vertices;
 }
 
+/// How much longer a vector can become.
+double largest_stretch(const Eigen::Matrix4f& matrix) {
+  const Mat3 linear = matrix.topLeftCorner<3, 3>().cast<double>();
+  return std::sqrt((linear.transpose() * linear).selfadjointView<Eigen::Lower>().operatorNorm());
+}
+
 /// What few vertices need.
 struct GpuDetail {
   Eigen::Vector3f tangent_in_node;
@@ -128,14 +136,25 @@ GpuScene::GpuScene(const Scene& scene, const Look& look)
 }
 
 void GpuScene::list_draws(const Scene& scene) {
-  for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+    std::map<int, int> posed;  // by their index in the scene
+    const auto pose_of = [&](int coarsening) {
+      if (coarsening < 0) return -1;
+      const auto [at, is_new] =
+          posed.try_emplace(coarsening, static_cast<int>(coarsenings_.size()));
+      if (is_new)
+        coarsenings_.push_back({static_cast<int>(node), scene.coarsenings[coarsening], {}, 0});
+      return at->second;
+    };
     for (const int index : scene.nodes[node].meshes) {
       const Mesh& mesh = scene.meshes[index];
       const Material& material = scene.materials[mesh.material];
       draws_.push_back({static_cast<int>(node), mesh, material.alpha_mode, material.double_sided,
                         kind_of(material) | (mesh.skinned ? kSkinned : 0u),
-                        mesh.skinned ? joint_boxes(scene, mesh) : std::vector<JointBox>{}});
+                        mesh.skinned ? joint_boxes(scene, mesh) : std::vector<JointBox>{},
+                        pose_of(mesh.made_by), pose_of(mesh.replaced_by)});
     }
+  }
   std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
     return std::pair(a.alpha_mode, a.mesh.material) < std::pair(b.alpha_mode, b.mesh.material);
   });
@@ -206,6 +225,11 @@ void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s, int c
   glNamedBufferSubData(nodes_.name(), 0, static_cast<GLsizeiptr>(blocks.size()), blocks.data());
   skin_.pose(world_from_nodes_);
   place_draws();
+  for (PosedCoarsening& posed : coarsenings_) {
+    const Eigen::Matrix4f& world_from_node = world_from_nodes_[posed.node];
+    posed.bounds_in_world = moved(posed.in_node.bounds_in_node, world_from_node);
+    posed.error_m = posed.in_node.error_in_node * largest_stretch(world_from_node);
+  }
 }
 
 void GpuScene::place_draws() {

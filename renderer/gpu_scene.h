@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/rigid3.h"
+#include "renderer/detail.h"
 #include "renderer/gpu_skin.h"
 #include "renderer/gpu_textures.h"
 #include "renderer/surface_kind.h"
@@ -34,8 +36,12 @@ class GpuScene {
     bool double_sided = false;
     SurfaceKind kind = 0;
     std::vector<JointBox> joints{};  ///< of a skinned mesh
+    // As Mesh::made_by and replaced_by, at this node.
+    int made_by = -1;
+    int replaced_by = -1;
   };
-  const std::vector<Draw>& draws() const { return draws_; }  ///< opaque, then masked, then blended
+  /// Of all levels of detail; opaque, then masked, then blended.
+  const std::vector<Draw>& draws() const { return draws_; }
   /// Around the draw's mesh as it is posed.
   const Box3f& bounds_in_world(const Draw& draw) const {
     return bounds_in_world_[&draw - draws_.data()];
@@ -45,6 +51,21 @@ class GpuScene {
   Facing facing(const Draw& draw) const {
     return (draw.mesh.skinned ? skinned_facings_ : facings_)[static_cast<std::size_t>(draw.node)];
   }
+  /// What an eye is shown, each surface at one level of detail, in the order of drawing: solid
+  /// (opaque or masked) from near to far, blended from far to near. The eye decides, not the tile:
+  /// neighbours agree.
+  struct Order {
+    Vec3 eye_in_world;
+    DetailNeed need;
+    std::uint64_t moves = 0;
+    std::vector<const Draw*> solid, blended;
+  };
+  /// Kept for the next view of the same eye, until the scene moves.
+  const Order& order_for(const Vec3& eye_in_world, const DetailNeed& need) const;
+  /// All surfaces, each at the coarsest level with at most this error.
+  std::vector<const Draw*> draws_within(double error_m) const;
+  /// Something is there in several levels of detail.
+  bool has_levels() const { return !coarsenings_.empty(); }
   /// Another number whenever pose() has moved something; never that of another scene that lives.
   struct Stand {
     GLuint scene = 0;
@@ -63,11 +84,21 @@ class GpuScene {
   void upload_materials(const Scene& scene, Style style);
   void list_draws(const Scene& scene);
   void place_draws();
+  template <class Fine>
+  std::vector<const Draw*> chosen_where(Fine fine) const;
 
   Scene skeleton_;  // nodes and animations
   std::size_t triangle_count_ = 0;
   std::vector<Draw> draws_;
   std::vector<Box3f> bounds_in_world_;  // of each draw
+  struct PosedCoarsening {
+    int node = 0;
+    Coarsening in_node;
+    Box3f bounds_in_world;
+    double error_m = 0;
+  };
+  std::vector<PosedCoarsening> coarsenings_;
+  mutable std::optional<Order> cached_order_;
   std::vector<Eigen::Matrix4f> world_from_nodes_;
   std::uint64_t moves_ = 0;
   std::vector<Facing> facings_, skinned_facings_;                    // of each node

@@ -101,6 +101,12 @@ std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animatio
   return transforms;
 }
 
+std::size_t Scene::triangle_count() const {
+  std::size_t indices_of_all = 0;
+  for (const Mesh& mesh : meshes) indices_of_all += mesh.made_by < 0 ? mesh.index_count : 0;
+  return indices_of_all / 3;
+}
+
 Box3f bounds_in_scene(const Scene& scene) {
   std::vector<Eigen::Matrix4f> transforms = transforms_at_rest(scene.nodes);
   compose(scene.nodes, transforms);
@@ -109,6 +115,7 @@ Box3f bounds_in_scene(const Scene& scene) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
     for (const int index : scene.nodes[i].meshes) {
       const Mesh& mesh = scene.meshes[index];
+      if (mesh.made_by >= 0) continue;  // of the same vertices
       const Eigen::Affine3f scene_from_node(transforms[i]);
       for (std::uint32_t at = mesh.first_index; at < mesh.first_index + mesh.index_count; ++at) {
         const std::uint32_t vertex = scene.indices[at];

@@ -78,8 +78,18 @@ struct Mesh {
   std::uint32_t index_count = 0;  ///< triangles: a multiple of 3; indices are absolute
   int material = 0;
   Box3f bounds_in_node;
-  bool skinned =
-      false;  ///< Skin moves its vertices, which are not in node but in the mesh's own frame
+  bool skinned = false;  ///< Scene::skin moves its vertices, which are in the mesh's own frame
+  // Levels of detail: indices into Scene::coarsenings, or -1. A mesh is drawn where the first is
+  // fine enough and the second is not.
+  int made_by = -1;      ///< its triangles are the coarser ones of this; -1: full detail
+  int replaced_by = -1;  ///< the coarser triangles of this stand for its own; -1: none do
+};
+
+/// Meshes that lie together and what stands for them where it is fine enough: fewer triangles with
+/// the same outer border (renderer/levels.h).
+struct Coarsening {
+  Box3f bounds_in_node;     ///< around all that the coarser triangles stand for
+  float error_in_node = 0;  ///< at most so far off full detail
 };
 
 /// Parents come before their children; node 0 is the root.
@@ -122,6 +132,7 @@ struct Scene {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
   std::vector<Mesh> meshes;
+  std::vector<Coarsening> coarsenings;
   std::vector<Material> materials;  ///< at least one where there is a mesh
   std::vector<Image> textures;
   std::vector<Node> nodes;
@@ -130,7 +141,7 @@ struct Scene {
   ColourCoding colours = ColourCoding::linear;
   std::optional<double> metres_per_unit;  ///< empty: the file does not say
 
-  std::size_t triangle_count() const { return indices.size() / 3; }
+  std::size_t triangle_count() const;  ///< of full detail
 };
 
 /// scene_from_node of every node at a time, an animation played round and round; at rest where

@@ -167,7 +167,13 @@ void fields(Archive& archive, Material& material) {
 
 template <class Archive>
 void fields(Archive& archive, Mesh& mesh) {
-  archive(mesh.first_index, mesh.index_count, mesh.material, mesh.bounds_in_node, mesh.skinned);
+  archive(mesh.first_index, mesh.index_count, mesh.material, mesh.bounds_in_node, mesh.skinned,
+          mesh.made_by, mesh.replaced_by);
+}
+
+template <class Archive>
+void fields(Archive& archive, Coarsening& coarsening) {
+  archive(coarsening.bounds_in_node, coarsening.error_in_node);
 }
 
 template <class Archive>
@@ -202,8 +208,9 @@ void fields(Archive& archive, Skin& skin) {
 
 template <class Archive>
 void fields(Archive& archive, Scene& scene) {
-  archive(scene.name, scene.vertices, scene.indices, scene.meshes, scene.materials, scene.textures,
-          scene.nodes, scene.animations, scene.skin, scene.colours, scene.metres_per_unit);
+  archive(scene.name, scene.vertices, scene.indices, scene.meshes, scene.coarsenings,
+          scene.materials, scene.textures, scene.nodes, scene.animations, scene.skin, scene.colours,
+          scene.metres_per_unit);
 }
 
 template <class Archive>

@@ -139,6 +139,14 @@ std::string fault_of_skin(const Scene& scene) {
   return "";
 }
 
+/// Each of the coarsenings is there, and coarser than what it was made of.
+bool levels_in_order(const Mesh& mesh, const std::vector<Coarsening>& coarsenings) {
+  for (const int index : {mesh.made_by, mesh.replaced_by})
+    if (index != -1 && !within(index, coarsenings.size())) return false;
+  return mesh.made_by == -1 || mesh.replaced_by == -1 ||
+         coarsenings[mesh.made_by].error_in_node < coarsenings[mesh.replaced_by].error_in_node;
+}
+
 }  // namespace
 
 std::string fault_of(const Scene& scene) {
@@ -151,6 +159,8 @@ std::string fault_of(const Scene& scene) {
     return "a triangle names a vertex that is not there";
   for (const Mesh& mesh : scene.meshes)
     if (!lies_within(mesh, scene)) return "a mesh names triangles or a material that are not there";
+  for (const Mesh& mesh : scene.meshes)
+    if (!levels_in_order(mesh, scene.coarsenings)) return "its levels of detail are out of order";
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
     if (node.parent < -1 || node.parent >= static_cast<int>(i) || (i > 0 && node.parent < 0))

@@ -52,7 +52,7 @@ void SceneRenderer::prepare(const GpuScene& scene, const ShadowMap* shadow) cons
   for (const GpuScene::Draw& draw : scene.draws()) scene_programs_.of(kind_drawn(draw, shadow));
 }
 
-void SceneRenderer::use_program(const Pass& pass, SurfaceKind kind) const {
+void SceneRenderer::use_program(const Pass& pass, const GpuScene& scene, SurfaceKind kind) const {
   const gl::Program& program = scene_programs_.of(kind);
   program.set("clip_from_world", gl::mat4_from(pass.view.clip_from_world));
   program.set("eye_in_world", gl::vec3_from(pass.view.eye_in_world));
@@ -60,6 +60,9 @@ void SceneRenderer::use_program(const Pass& pass, SurfaceKind kind) const {
   if (kind & kShadowed) {
     program.set("map_from_world", gl::mat4_from(pass.shadow->fit().map_from_world));
     program.set("shadow_texel_m", static_cast<float>(pass.shadow->fit().texel_m));
+    const double here_m = scene.has_levels() ? pass.shadow->largest_error_m() : 0;
+    const double per_m = scene.has_levels() ? largest_error_per_m(pass.view.detail) : 0;
+    program.set("level_error_m", glm::vec2(here_m, per_m));
   }
   program.use();
 }
@@ -70,7 +73,7 @@ void SceneRenderer::draw_scene(const Pass& pass, const GpuScene& scene, DrawCoun
   for (const Batch& batch : batches_in_view(pass.view, scene, pass.blended, count)) {
     const GpuScene::Draw& draw = *batch.first;
     const SurfaceKind kind = kind_drawn(draw, pass.shadow);
-    if (in_use != kind) use_program(pass, kind);
+    if (in_use != kind) use_program(pass, scene, kind);
     in_use = kind;
     scene.bind(draw, kind);
     const GpuScene::Facing facing = scene.facing(draw);

@@ -50,7 +50,7 @@ class SceneRenderer {
   };
   void draw_scene(const Pass& pass, const GpuScene& scene, DrawCount& count) const;
   SurfaceKind kind_drawn(const GpuScene::Draw& draw, const ShadowMap* shadow) const;
-  void use_program(const Pass& pass, SurfaceKind kind) const;
+  void use_program(const Pass& pass, const GpuScene& scene, SurfaceKind kind) const;
   void draw_panel(const View& view, const Panel& panel) const;
   void draw_background(const View& view) const;
 

@@ -121,8 +121,8 @@ void ShadowMap::draw(std::span<const GpuScene* const> scenes) const {
   glDisable(GL_CULL_FACE);
   for (const GpuScene* scene : scenes) {
     std::vector<Batch> batches;
-    for (const GpuScene::Draw& draw : scene->draws())
-      if (casts_shadow(draw)) add_to_batches(draw, false, batches);
+    for (const GpuScene::Draw* draw : scene->draws_within(largest_error_m()))
+      if (casts_shadow(*draw)) add_to_batches(*draw, false, batches);
     scene->bind();
     for (const Batch& batch : batches) {
       const SurfaceKind kind = caster_kind(batch.first->kind);

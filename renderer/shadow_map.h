@@ -43,6 +43,8 @@ class ShadowMap {
   /// Something may be in the shadow.
   bool in_use() const { return in_use_; }
   const ShadowFit& fit() const { return fit_; }
+  /// Of the level of detail that throws a shadow.
+  double largest_error_m() const { return 0.25 * fit_.texel_m; }
   GLuint texture() const { return depth_.name(); }
 
  private:

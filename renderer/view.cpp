@@ -52,7 +52,7 @@ Vec3 middle_direction(const std::vector<Vec3>& rays) {
 std::optional<View> tile_view(const TileCorners& corners, const Vec3& eye_in_wall) {
   const auto clip = clip_from_wall(corners, eye_in_wall);
   if (!clip) return std::nullopt;
-  return View{*clip, eye_in_wall};
+  return View{.clip_from_world = *clip, .eye_in_world = eye_in_wall};
 }
 
 TileCorners part_of_tile(const Tile& tile, const Vec2& upper_left_px, SizePx size) {

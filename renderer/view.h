@@ -1,11 +1,12 @@
-// How a world is seen: the matrix that takes it to clip space, and the eye. The world of a tile is
-// the wall's frame; the world of a picture of the laboratory is the room's.
+// How a world is seen: the matrix that takes it to clip space, the eye, and how fine it must be.
+// The world of a tile is the wall's frame; the world of a picture of the laboratory is the room's.
 #pragma once
 
 #include <optional>
 
 #include "core/frustum.h"
 #include "core/wall.h"
+#include "renderer/detail.h"
 #include "renderer/image.h"
 
 namespace vindu {
@@ -13,6 +14,7 @@ namespace vindu {
 struct View {
   Mat4 clip_from_world;
   Vec3 eye_in_world;
+  DetailNeed detail{};  ///< of all that the eye sees at once, however many views show it
 };
 
 /// Empty when the eye is at or behind the tile's plane.

@@ -45,6 +45,7 @@ WallLayout layout_of(const Wall& wall, double scale) {
 
 WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look, const Wall& whole)
     : wall_(wall),
+      scale_(scale),
       layout_(layout_of(wall, scale)),
       renderer_(look),
       patterns_(whole, look.style),
@@ -138,14 +139,16 @@ void WallRenderer::draw_together(const FrameState& state, std::span<const std::s
   };
   const GpuScene* const scene = scene_.get();
   const std::span scenes(&scene, scene ? 1 : 0);
+  const DetailNeed need = detail_need(wall_, state.eye_in_wall, scale_);
   canvas_->begin();
   for (std::size_t order = 0; order < tiles.size(); ++order) {
     const Tile& tile = wall_.tiles[tiles[order]];
-    const auto view = tile_view(tile.corners, state.eye_in_wall);
+    auto view = tile_view(tile.corners, state.eye_in_wall);
     if (!view) {
       frame.black_tiles.push_back(tile.name);
       continue;
     }
+    view->detail = need;
     canvas_->draw_into(cell(order));
     const DrawCount count = renderer_.draw(*view, scenes, {}, shadow_.get());
     frame.count += count;

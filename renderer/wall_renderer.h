@@ -68,6 +68,7 @@ class WallRenderer {
   void draw_together(const FrameState& state, std::span<const std::size_t> tiles, WallFrame& frame);
 
   Wall wall_;
+  double scale_;
   WallLayout layout_;
   SceneRenderer renderer_;
   PatternPainter patterns_;

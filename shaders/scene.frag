@@ -77,7 +77,7 @@ void main() {
   vec3 light = environment_light(s, alpha_ggx) + emitted();
   vec3 key = direct_light(s, alpha_ggx, to_key) * kKeyLight;
 #ifdef SHADOWED
-  key *= key_visibility(position_in_world, s.face_normal, to_key);
+  key *= key_visibility(position_in_world, s.face_normal, to_key, eye_in_world);
 #endif
   out_colour = vec4(tone(light + key), base.a);
 #endif

@@ -4,8 +4,11 @@
 layout(binding = 5) uniform sampler2DShadow shadow_map;
 uniform mat4 map_from_world;
 uniform float shadow_texel_m;
+// How far picture and map may be off each other where they show other levels of detail: the map,
+// and the picture for each metre from the eye.
+uniform vec2 level_error_m;
 
-float key_visibility(vec3 position_in_world, vec3 normal, vec3 to_light) {
+float key_visibility(vec3 position_in_world, vec3 normal, vec3 to_light, vec3 eye_in_world) {
   // Off the surface, the farther the flatter the light falls, or it would shadow itself
   // (D. Holbert, "Saying Goodbye to Shadow Acne", 2011).
   float cosine = clamp(dot(normal, to_light), 0.0, 1.0);
@@ -15,6 +18,7 @@ float key_visibility(vec3 position_in_world, vec3 normal, vec3 to_light) {
   const float reach_px = 1.5;
 #endif
   float off_m = reach_px * shadow_texel_m * sqrt(1.0 - cosine * cosine) + 0.1 * shadow_texel_m;
+  off_m += dot(level_error_m, vec2(1.0, distance(eye_in_world, position_in_world)));
   vec3 place = (map_from_world * vec4(position_in_world + off_m * normal, 1.0)).xyz;
   place.z = min(place.z + 1e-5, 1.0);
 #ifdef SOFT_SHADOWS

@@ -33,6 +33,7 @@ LIBRARIES = {
     "EGL": (r"EGL/", r"renderer/.*"),
     "epoxy": (r"epoxy/|GL/|GLES\d?/", r"renderer/.*"),
     "Assimp": (r"assimp/", r"renderer/.*"),
+    "meshoptimizer": (r"meshoptimizer\.h", r"renderer/[^/]*\.cpp"),
     "GLM": (r"glm/", r"renderer/.*"),
     "libpng": (r"png\.h", r"renderer/.*"),
     "stb": (r"stb(/|_)", r"renderer/.*"),

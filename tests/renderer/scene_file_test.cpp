@@ -31,6 +31,10 @@ PackedScene small_scene() {
   scene.skin.joints.resize(2);
   scene.skin.joints[1] = {1, 2 * Eigen::Matrix4f::Identity()};
   scene.skin.influences.assign(3, {{1, 0, 0, 0}, {60000, kFullWeight - 60000, 0, 0}});
+  scene.meshes.push_back(scene.meshes.front());
+  scene.meshes[0].replaced_by = 0;
+  scene.meshes[1].made_by = 0;
+  scene.coarsenings = {{scene.meshes[0].bounds_in_node, 0.5f}};
   scene.textures = {Image::filled(2, 3, {9, 8, 7, 6})};
   Material material{.name = "red", .roughness = 0.25f};
   material.texture(TextureRole::normal) = {.image = 0, .uv_set = 1, .wrap_v = Wrap::clamp};
@@ -91,6 +95,10 @@ TEST_F(SceneFile, BringsBackAllThatWasWritten) {
   EXPECT_EQ(scene.skin.joints[1].node, 1);
   EXPECT_EQ(scene.skin.joints[1].joint_from_mesh, 2 * Eigen::Matrix4f::Identity());
   EXPECT_EQ(scene.skin.influences[2].weights[0], 60000);
+  EXPECT_EQ(scene.meshes[0].replaced_by, 0);
+  EXPECT_EQ(scene.meshes[1].made_by, 0);
+  EXPECT_EQ(scene.coarsenings[0].error_in_node, 0.5f);
+  EXPECT_EQ(scene.coarsenings[0].bounds_in_node.max(), Eigen::Vector3f(1, 2, 3));
   EXPECT_EQ(scene.animations[0].channels[0].rotations[0].value.x(), 1);
   EXPECT_EQ(scene.colours, ColourCoding::srgb);
   EXPECT_EQ(scene.metres_per_unit, 0.01);
@@ -142,6 +150,12 @@ TEST(FaultOf, NamesWhatCannotBeDrawn) {
               HasSubstr("triangles"));
   EXPECT_THAT(fault_after([](Scene& scene) { scene.meshes[0].material = -1; }),
               HasSubstr("material"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.meshes[0].made_by = 1; }), HasSubstr("levels"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.meshes[0].made_by = -2; }), HasSubstr("levels"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.meshes[1].replaced_by = 7; }),
+              HasSubstr("levels"));
+  EXPECT_THAT(fault_after([](Scene& scene) { scene.meshes[1].replaced_by = 0; }),
+              HasSubstr("levels"));  // of itself
   EXPECT_THAT(fault_after([](Scene& scene) { scene.nodes[1].parent = 1; }), HasSubstr("parent"));
   EXPECT_THAT(fault_after([](Scene& scene) { scene.nodes[1].meshes = {4}; }), HasSubstr("mesh"));
   EXPECT_THAT(fault_after([](Scene& scene) { scene.textures[0].width_px = 5; }),

@@ -1,0 +1,161 @@
+// Levels of detail in pictures: without holes, as full detail looks, and the same on every tile.
+#include "renderer/levels.h"
+
+#include <cstdio>
+
+#include "bench/detail/scan.h"
+#include "renderer/chunks.h"
+#include "renderer/wall_renderer.h"
+#include "tests/renderer/gl_test.h"
+#include "tests/renderer/test_scenes.h"
+
+namespace vindu {
+namespace {
+
+using namespace testing;
+
+const Scene& scan() {
+  static const Scene scene = [] {
+    Scene made = scan_scene({.triangles = 150000});
+    cut_into_chunks(made);
+    make_levels(made);
+    return made;
+  }();
+  return scene;
+}
+
+/// The same, of one level.
+Scene full_detail() {
+  Scene scene = scan_scene({.triangles = 150000});
+  cut_into_chunks(scene);
+  return scene;
+}
+
+constexpr SizePx kSize{256, 192};
+
+/// A screen of 1.6 x 1.2 m; the scan, as a ball of 0.5 m around a place.
+FrameState seen_from(const Vec3& eye, const Vec3& middle) {
+  FrameState state{.eye_in_wall = eye};
+  state.navigation.wall_from_scene.translation = middle;
+  state.navigation.scale = 0.5;
+  return state;
+}
+
+struct Drawn {
+  Image picture;
+  std::uint64_t triangles = 0;
+};
+
+Drawn draw(const Wall& wall, const Look& look, const Scene& scene, const FrameState& state,
+           const Tile* only = nullptr) {
+  WallRenderer renderer(wall, 1, look);
+  renderer.show(scene);
+  const WallFrame frame = renderer.draw(state, only);
+  return {renderer.picture().read(), frame.count.triangles - frame.count.culled_triangles};
+}
+
+Wall one_screen() { return single_screen(1.6, 1.2, kSize.width, kSize.height); }
+
+double mean_difference(const Image& a, const Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    for (std::size_t part = 0; part < 3; ++part)
+      sum += std::abs(int{a.pixels[i][part]} - int{b.pixels[i][part]});
+  return sum / (3.0 * static_cast<double>(a.pixels.size()));
+}
+
+/// The scan is never black where light is not drawn.
+bool is_background(const Image& image, int x, int y) {
+  return image.pixels[static_cast<std::size_t>(y) * image.width_px + x] == kBlack;
+}
+
+class LevelsGl : public GlTest {};
+
+const std::vector<std::pair<Vec3, Vec3>> kEyesAndMiddles = {
+    {{0, 0, 2}, {0, 0, -0.6}},       // before it
+    {{0.2, 0.1, 0.75}, {0, 0, 0}},   // so near that its front is finer than its sides
+    {{-1.5, 0.3, 0.6}, {0, 0, -1}},  // from aside
+    {{0, 0, 2}, {0.5, 0, -6}},       // far away
+};
+
+TEST_F(LevelsGl, HaveNoHoles) {
+  for (const auto& [eye, middle] : kEyesAndMiddles) {
+    const FrameState state = seen_from(eye, middle);
+    const Image image = draw(one_screen(), Look{Style::unlit}, scan(), state).picture;
+    const Image whole = draw(one_screen(), Look{Style::unlit}, full_detail(), state).picture;
+    int inside = 0, holes = 0;
+    for (int y = 2; y < kSize.height - 2; ++y)
+      for (int x = 2; x < kSize.width - 2; ++x) {
+        bool border = false;
+        for (int dy = -2; dy <= 2; ++dy)
+          for (int dx = -2; dx <= 2; ++dx) border |= is_background(whole, x + dx, y + dy);
+        if (border) continue;
+        ++inside;
+        holes += is_background(image, x, y);
+      }
+    EXPECT_EQ(holes, 0) << eye.transpose();
+    EXPECT_GT(inside, 500);
+  }
+}
+
+TEST_F(LevelsGl, LookLikeFullDetailWithFewerTriangles) {
+  for (const auto& [eye, middle] : kEyesAndMiddles) {
+    const FrameState state = seen_from(eye, middle);
+    for (const Look& look :
+         {Look{Style::lit, 4, Shadows::none}, Look{Style::lit, 1, Shadows::crisp},
+          Look{Style::lit, 4, Shadows::soft}}) {
+      const Drawn levels = draw(one_screen(), look, scan(), state);
+      const Drawn full = draw(one_screen(), look, full_detail(), state);
+      const double difference = mean_difference(levels.picture, full.picture);
+      std::printf("mean difference %.3f levels, %zu of %zu triangles\n", difference,
+                  static_cast<std::size_t>(levels.triangles),
+                  static_cast<std::size_t>(full.triangles));
+      EXPECT_LT(difference, 1) << eye.transpose();
+      EXPECT_LT(levels.triangles, full.triangles);
+    }
+  }
+}
+
+TEST_F(LevelsGl, MeetAtTheSeamsOfTiles) {
+  const WallGrid grid{.columns = 4,
+                      .rows = 3,
+                      .width_m = 1.6,
+                      .height_m = 1.2,
+                      .tile_width_px = 64,
+                      .tile_height_px = 64,
+                      .mount = {}};
+  const Wall tiles = expand_wall(grid, {}, {});
+  for (const auto& [eye, middle] : kEyesAndMiddles) {
+    const FrameState state = seen_from(eye, middle);
+    const Image joined = draw(tiles, Look{Style::unlit}, scan(), state).picture;
+    const Image one = draw(one_screen(), Look{Style::unlit}, scan(), state).picture;
+    ASSERT_EQ(joined.pixels.size(), one.pixels.size());
+    int beyond = 0;
+    for (std::size_t i = 0; i < one.pixels.size(); ++i)
+      for (std::size_t part = 0; part < 3; ++part)
+        beyond += std::abs(int{one.pixels[i][part]} - int{joined.pixels[i][part]}) > 1;
+    EXPECT_LE(beyond, 10) << eye.transpose();
+  }
+}
+
+TEST_F(LevelsGl, OfATileAloneAreThoseOfTheWall) {
+  WallGrid grid{.columns = 2,
+                .rows = 1,
+                .width_m = 1.6,
+                .height_m = 1.2,
+                .tile_width_px = 128,
+                .tile_height_px = 192,
+                .mount = {}};
+  grid.curve_deg = 40;
+  const Wall wall = expand_wall(grid, {}, {});
+  const FrameState state = seen_from({-0.4, 0.1, 0.8}, {0, 0, -0.5});
+  WallRenderer together(wall, 1, Look{Style::lit, 1}), alone(wall, 1, Look{Style::lit, 1});
+  together.show(scan());
+  alone.show(scan());
+  together.draw(state);
+  alone.draw(state, &wall.tiles[1]);
+  EXPECT_EQ(alone.read_tile(1), together.read_tile(1));
+}
+
+}  // namespace
+}  // namespace vindu
