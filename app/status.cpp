@@ -70,12 +70,12 @@ std::string json_of(const WallNow& wall) {
   for (const TileNow& tile : wall.tiles) tiles += (tiles.empty() ? "" : ", ") + json_of(tile);
   for (const std::string& name : wall.trackers)
     trackers += (trackers.empty() ? "" : ", ") + json_text(name);
-  return fmt::format(
-      R"({{"good": {}, "master": {}, "epoch": {}, "frame": {}, "fps": {:.2f}, )"
-      R"("pattern": {}, "blank": {}, "active_tiles": {}, "report": {}, "trackers": [{}], "tiles": [{}]}})",
-      wall.good(), wall.master ? json_text(wall.master->host) : "null", wall.epoch, wall.frame,
-      wall.frames_per_s, json_text(std::string(name_of(wall.pattern))), wall.blank,
-      wall.active_tiles, json_of(wall.report), trackers, tiles);
+  return fmt::format(R"({{"good": {}, "master": {}, "epoch": {}, "frame": {}, "fps": {:.2f}, )"
+                     R"("pattern": {}, "blank": {}, "active_tiles": {}, "report": {}, )"
+                     R"("trackers": [{}], "tiles": [{}]}})",
+                     wall.good(), wall.master ? json_text(wall.master->host) : "null", wall.epoch,
+                     wall.frame, wall.frames_per_s, json_text(std::string(name_of(wall.pattern))),
+                     wall.blank, wall.active_tiles, json_of(wall.report), trackers, tiles);
 }
 
 void print(const StatusCommand& command, const WallNow& wall) {

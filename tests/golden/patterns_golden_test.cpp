@@ -27,7 +27,7 @@ TEST(PatternGolden, Seams) { EXPECT_EQ(complaint_about_pattern(Pattern::seams), 
 TEST(PatternGolden, Ramps) { EXPECT_EQ(complaint_about_pattern(Pattern::ramps), ""); }
 TEST(PatternGolden, Eye) { EXPECT_EQ(complaint_about_pattern(Pattern::eye), ""); }
 
-/// Two tiles beside each other, the left one turned towards the viewer.
+/// Two tiles beside each other, turned towards the viewer.
 Wall bent_wall() {
   Wall wall = expand_wall({.columns = 2,
                            .rows = 1,

@@ -134,7 +134,7 @@ TEST_P(Seams, LieOnOneLineOverAllTiles) {
             corners.lower_left_in_wall.x() + (column + 0.5) / kSize.width * corners.width_m();
         const double y_m = corners.upper_left_in_wall.y() - row * px_m;
         const double off_m = std::remainder(y_m - x_m / 12, step_m);
-        EXPECT_NEAR(off_m / px_m, 0, 0.1) << name << ", " << column << ", " << row;
+        EXPECT_NEAR(off_m / px_m, 0, 0.2) << name << ", " << column << ", " << row;
         ++found;
       }
     EXPECT_GT(found, 6) << name;
@@ -161,7 +161,7 @@ TEST(NamesPattern, SaysWhoTheTileIsAndHowItHangs) {
   Wall wall = wall_of();
   Tile& tile = wall.tiles[9];
   tile.host = "node9";
-  tile.mount = {.mirror = true, .rotate_deg = 180};
+  tile.mount = {.mirror = false, .rotate_deg = 180};
   const Image image = draw_names(tile, kSize);
   const Rgba8 ground = image.at(20, 200);
   EXPECT_TRUE(says(image, "tile-2-1",
@@ -169,14 +169,25 @@ TEST(NamesPattern, SaysWhoTheTileIsAndHowItHangs) {
                    ground));
   const TextStyle small{.height_px = 0.07 * 384, .colour = {200, 205, 212, 255}};
   EXPECT_TRUE(says(image, "host node9", small, ground));
-  EXPECT_TRUE(says(image, "1024 x 768 px, 0.741 x 0.560 m", small, ground));
-  EXPECT_TRUE(says(image, "mount: mirrored, turned 180 degrees clockwise", small, ground));
-  EXPECT_FALSE(says(image, "mount: mirrored, turned 90 degrees clockwise", small, ground));
+  EXPECT_TRUE(says(image, "1024 x 768 px, 0.741 x 0.559 m", small, ground));
+  EXPECT_TRUE(says(image, "mount: turned 180 degrees clockwise", small, ground));
+  EXPECT_FALSE(says(image, "mount: turned 90 degrees clockwise", small, ground));
+}
+
+TEST(NamesPattern, SaysHowADisplayIsFed) {
+  EXPECT_EQ(text_of(TileMount{}), "as it is");
+  EXPECT_EQ(text_of({.mirror = true, .rotate_deg = 0}), "mirrored");
+  EXPECT_EQ(text_of({.mirror = true, .rotate_deg = 90}), "mirrored, turned 90 degrees clockwise");
 }
 
 TEST(NamesPattern, PointsUpWhereTheWallsUpIs) {
   // A tile on its side: its picture's left edge is the wall's lower one.
-  Tile tile{.name = "tile-0-0", .host = "a", .width_px = 100, .height_px = 100, .corners = {}};
+  Tile tile{.name = "tile-0-0",
+            .host = "a",
+            .width_px = 100,
+            .height_px = 100,
+            .corners = {},
+            .mount = {}};
   tile.corners = {{-1, 1, 0}, {-1, -1, 0}, {1, 1, 0}};
   const Image image = draw_names(tile, kSize);
   double blue_left = 0, blue_right = 0;  // of the arrow: its head is broad
