@@ -13,6 +13,7 @@ namespace vindu {
 namespace {
 
 constexpr auto kBeats = std::chrono::seconds(2);
+constexpr auto kStill = std::chrono::milliseconds(500);
 constexpr const char* kEvicted = "evicted";
 
 /// A tile that says ready does not know that the others no longer wait for it; the master does.
@@ -21,7 +22,6 @@ void mark_evicted(TileNow& tile) {
   const bool evicted = tile.report && tile.report->locked == 0 && tile.report->evictions > 0;
   tile.state = evicted ? kEvicted : name_of(TileState::ready);
 }
-constexpr auto kStill = std::chrono::seconds(1);
 
 /// Tiles that differ in figures alone.
 struct Group {

@@ -31,7 +31,7 @@ struct WallNow {
   Pattern pattern = Pattern::none;        ///< of that frame
   bool blank = false;                     ///< the same
   double frames_per_s = 0;                ///< over the last seconds
-  bool still = false;                     ///< what is seen has not changed for a second
+  bool still = false;                     ///< what is seen has not changed for half a second
   std::uint32_t active_tiles = 0;         ///< in the frame lock
   std::optional<ReportMessage> report{};  ///< the master's newest about the whole wall
   std::vector<TileNow> tiles{};           ///< in the wall file's order
