@@ -6,10 +6,12 @@
 
 #include <assimp/DefaultIOSystem.h>
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "core/error.h"
 #include "renderer/import_file.h"
@@ -30,6 +32,13 @@ constexpr const char* kGltf2Loader = "glTF2 Importer";
 constexpr const char* kObjLoader = "Wavefront Object Importer";
 constexpr const char* kFbxLoader = "Autodesk FBX Importer";
 constexpr const char* kBlenderLoader = "Blender 3D Importer (http://www.blender3d.org)";
+/// Whose formats have z up, and whose scenes Assimp 5.2 leaves so.
+constexpr std::array kZUpLoaders = {std::string_view(kBlenderLoader),
+                                    std::string_view("TrueSpace Object Importer"),
+                                    std::string_view("Quick3D Importer"),
+                                    std::string_view("Valve SMD Importer"),
+                                    std::string_view("3D GameStudio Heightmap (HMP) Importer"),
+                                    std::string_view("Terragen Heightmap Importer")};
 
 /// Cutting a polygon into triangles takes time with the square of its corners.
 constexpr unsigned kMaxPolygonCorners = 20'000;
@@ -121,7 +130,8 @@ const aiScene& read_with_assimp(Assimp::Importer& importer, const std::string& f
   check_faces(*source, file, limits);
   correct_primitive_types(*source);
   unsigned steps = aiProcess_Triangulate;
-  if (loader_of(*source) != kGltf2Loader) steps |= aiProcess_TransformUVCoords;  // glTF's are ours
+  if (loader_of(*source) != kGltf2Loader)  // glTF's transforms are ours
+    steps |= aiProcess_GenUVCoords | aiProcess_TransformUVCoords;
   source = importer.ApplyPostProcessing(steps);
   if (!source) throw_broken(file, one_line(importer.GetErrorString()));
   return *source;
@@ -159,10 +169,11 @@ std::optional<Eigen::Vector3f> stated_axis(const aiMetadata& metadata, const std
 }
 
 /// What turns the file's axes into ours, where Assimp 5.2 leaves that to us: FBX states them, and
-/// Blender's are always the same (z up).
+/// some formats' are always the same (z up).
 std::optional<Eigen::Matrix4f> upright_from_file(const aiScene& source, const std::string& loader) {
   if (!source.mRootNode->mTransformation.IsIdentity()) return std::nullopt;
-  if (loader == kBlenderLoader) return upright(Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ());
+  if (std::ranges::find(kZUpLoaders, loader) != kZUpLoaders.end())
+    return upright(Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ());
   if (loader != kFbxLoader || !source.mMetaData) return std::nullopt;
   const auto right = stated_axis(*source.mMetaData, "CoordAxis");
   const auto up = stated_axis(*source.mMetaData, "UpAxis");
@@ -249,6 +260,19 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
   return mesh_of_source;
 }
 
+/// Whether any triangle is more than a line, for the length of its longest side.
+bool has_area(const Scene& scene) {
+  for (std::size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t which) -> Eigen::Vector3d {
+      return scene.vertices[scene.indices[i + which]].position_in_node.cast<double>();
+    };
+    const Eigen::Vector3d a = corner(1) - corner(0), b = corner(2) - corner(0);
+    const double longest = std::max({a.norm(), b.norm(), (a - b).norm()});
+    if (a.cross(b).norm() > 1e-9 * longest * longest) return true;
+  }
+  return false;
+}
+
 /// A picture needs triangles, and triangles that are somewhere.
 void check_drawable(const Scene& scene, const std::string& file) {
   if (scene.indices.empty())
@@ -258,6 +282,7 @@ void check_drawable(const Scene& scene, const std::string& file) {
   if (bounds.isEmpty() || !bounds.diagonal().allFinite() || !bounds.center().allFinite())
     throw_broken(file, "its size is not finite");
   if (!(bounds.diagonal().norm() > 0)) throw_broken(file, "all its points are in one place");
+  if (!has_area(scene)) throw_broken(file, "its triangles are but lines");
 }
 
 ImportResult converted(const aiScene& source, const std::string& file, const ImportLimits& limits,

@@ -132,6 +132,13 @@ TEST(ImportError, AllVerticesInOnePlace) {
               HasSubstr("in one place"));
 }
 
+TEST(ImportError, TrianglesWithoutAnyArea) {
+  const TemporaryFolder folder;
+
+  EXPECT_THAT(message_of(folder.write("a.obj", "v 0 0 0\nv 1 2 3\nv -1 -2 -3\nf 1 2 3\n")),
+              HasSubstr("but lines"));
+}
+
 TEST(ImportError, AllVerticesInfinite) {
   EXPECT_THAT(
       message_of(test::test_model("glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb")),

@@ -188,6 +188,30 @@ TEST(RealModels, BlendersZIsUp) {
   EXPECT_GT(size.y(), 2 * size.z());
 }
 
+// A dwarf and a goblet are taller than deep; a walker is longer than tall; a ground lies.
+TEST(RealModels, OtherFormatsZIsUpToo) {
+  const auto tall_by_deep = [](const char* file) {
+    const Eigen::Vector3f size =
+        bounds_in_scene(import_scene(test::test_model(file)).scene).diagonal();
+    return size.y() / size.z();
+  };
+  EXPECT_GT(tall_by_deep("COB/dwarf.cob"), 1.1f);
+  EXPECT_GT(tall_by_deep("SMD/holy_grailref.smd"), 1.3f);
+  EXPECT_LT(tall_by_deep("Q3D/E-AT-AT.q3o"), 0.9f);
+  EXPECT_LT(tall_by_deep("HMP/terrain.hmp"), 0.5f);
+}
+
+TEST(RealModels, ProjectedTexturesHaveCoordinates) {
+  for (const char* mapping : {"planar_x", "cylindrical_x", "spherical_y"}) {
+    const Scene earth = import_scene(test::test_model("LWO/LWO2/MappingModes/earth_" +
+                                                      std::string(mapping) + ".lwo"))
+                            .scene;
+    Eigen::AlignedBox2f used;
+    for (const Vertex& vertex : earth.vertices) used.extend(vertex.uv);
+    EXPECT_GT(used.sizes().minCoeff(), 0.5f) << mapping;
+  }
+}
+
 TEST(RealModels, EmbeddedTexturesAreDecoded) {
   for (const char* file :
        {"glTF2/BoxTextured-glTF-Embedded/BoxTextured.gltf", "FBX/embedded_ascii/box.FBX",
