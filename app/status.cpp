@@ -21,6 +21,7 @@ struct StatusCommand {
   std::string wall_file;
   bool json = false;
   bool watch = false;
+  double timeout_s = 0;
 };
 
 /// Long enough for all to be found, and for a tile that hangs to be called silent.
@@ -107,10 +108,12 @@ int status(const StatusCommand& command) {
   const auto bus = transport.join({self, {}, WallView::hears()});
   WallView view(tile_names(site.wall), self);
   const MonotonicClock clock;
+  const Time patient_until = clock.now() + from_seconds(command.timeout_s);
   for (Time shown = clock.now(); !signals.came_within(Duration::zero());) {
     bus->wait(WallView::hears(), clock.now() + kTurn);
     view.poll(*bus, clock.now());
     if (clock.now() - shown < kListen) continue;
+    if (!command.watch && clock.now() < patient_until && !view.now().good()) continue;
     print(command, view.now());
     if (!command.watch) say_why_nobody(view.now(), site);
     shown = clock.now();
@@ -129,10 +132,16 @@ void add_status(CLI::App& parent, Action& chosen) {
       ->type_name("FILE");
   app->add_flag("--json", command->json, "A line of JSON, with every tile");
   app->add_flag("--watch", command->watch, "Again and again, until Ctrl-C");
+  app->add_option(
+         "--timeout", command->timeout_s,
+         "Seconds to listen for until all is good (default: 1.5); many hosts with keys take\n"
+         "longer to be found")
+      ->check(between(0, 3600));
   app->footer(
       "\nExit code: 0 when there is a master and every tile is ready, else 1.\n"
       "\nExamples:\n"
       "  vindu status --wall wall.toml\n"
+      "  vindu status --wall wall.toml --timeout 60      waits until all tiles are ready\n"
       "  vindu status --watch\n");
   app->callback([command, &chosen] { chosen = [command] { return status(*command); }; });
 }
