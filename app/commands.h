@@ -34,6 +34,7 @@ void add_goto(CLI::App& parent, Action& chosen);
 void add_pattern(CLI::App& parent, Action& chosen);
 void add_blank(CLI::App& parent, Action& chosen);
 void add_overlay(CLI::App& parent, Action& chosen);
+void add_capture(CLI::App& parent, Action& chosen);
 void add_stop(CLI::App& parent, Action& chosen);
 void add_restart(CLI::App& parent, Action& chosen);
 void add_logs(CLI::App& parent, Action& chosen);

@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   vindu::app::add_pattern(app, chosen);
   vindu::app::add_blank(app, chosen);
   vindu::app::add_overlay(app, chosen);
+  vindu::app::add_capture(app, chosen);
   vindu::app::add_stop(app, chosen);
   vindu::app::add_restart(app, chosen);
   vindu::app::add_logs(app, chosen);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <future>
 
+#include "app/captures.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/emulation.h"
@@ -132,7 +133,7 @@ class MasterRun {
                                .version = VINDU_VERSION},
                               kTells,
                               kJoins})),
-        wall_(*bus_, {.epoch = new_epoch(),
+        wall_(*bus_, {.epoch = epoch_,
                       .host = host_name(),
                       .tiles = tile_names(site.wall),
                       .barrier = {.lock = site.cluster.lock}}),
@@ -156,6 +157,7 @@ class MasterRun {
       note_events();
       follow_scenes();
       for (const CommandMessage& command : desk_.take()) answer(command);
+      answer_captures();
       if (wall_.open() && now >= tick) {
         on_tick(now);
         const auto passed = static_cast<std::int64_t>(seconds(now - start) * site_.rate_hz + 1e-6);
@@ -226,7 +228,7 @@ class MasterRun {
         .animation_time_s = stage_.plays() ? seconds(now - stage_.clip_start) : 0,
         .clip = stage_.clip,
         .mode = eye.mode,
-        .overlays = overlays_,
+        .overlays = overlays_ | (captures_.empty() ? 0 : std::uint32_t{kKeepPicture}),
         .pattern = pattern_,
         .blank = blank_};
     if (wall_.due(state, now))
@@ -243,6 +245,16 @@ class MasterRun {
     figures_.begun(origin, {.level = eye.pose ? std::optional(eye.pose->level) : std::nullopt,
                             .drawn = drawn});
     publish_camera(state.eye_in_wall);
+    if (captures_.empty()) return;
+    captured_ = {.frame = {epoch_, wall_.newest(), state.eye_in_wall},
+                 .asked = std::exchange(captures_, {})};
+  }
+
+  /// When all tiles have drawn the frame whose pictures they were to keep.
+  void answer_captures() {
+    if (captured_.asked.empty() || !wall_.open()) return;
+    for (const CommandMessage& command : std::exchange(captured_.asked, {}))
+      reply(command, true, text_of(captured_.frame));
   }
 
   /// The eye to show: the tracked one, without its trembling.
@@ -336,6 +348,8 @@ class MasterRun {
       case Verb::overlay:
         set_overlay(kStatistics, command.argument == "on");
         break;
+      case Verb::capture:
+        return captures_.push_back(command);
       case Verb::blank:
         set_blank(command.argument);
         break;
@@ -394,6 +408,7 @@ class MasterRun {
   DdsTransport transport_;
   std::unique_ptr<Bus> bus_;
   CommandDesk desk_{*bus_, "master"};
+  std::uint64_t epoch_ = new_epoch();
   WallMaster wall_;
   Vec3 eye_in_wall_;
   TouchEye touch_{*bus_, site_};
@@ -410,6 +425,11 @@ class MasterRun {
     Time start{};
   };
   std::optional<Glide> glide_;
+  std::vector<CommandMessage> captures_;  // for the next frame
+  struct Captured {
+    CapturedFrame frame;
+    std::vector<CommandMessage> asked;  // answered when all tiles have drawn it
+  } captured_;
   bool elsewhere_;
   std::uint32_t overlays_;
   Pattern pattern_;

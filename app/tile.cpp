@@ -6,6 +6,7 @@
 #include <future>
 #include <random>
 
+#include "app/captures.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/service.h"
@@ -250,6 +251,13 @@ class TileRun {
       drawn_words_ = std::move(words);
     }
     tile_.drew(frame_.newest.number, now, clock_.now());
+    if (frame_.newest.overlays & kKeepPicture) keep_pictures();
+  }
+
+  void keep_pictures() {
+    for (std::size_t i = 0; i < part_.tiles.size(); ++i)
+      captures_.keep(site_.cluster, {.epoch = frame_.epoch, .number = frame_.newest.number},
+                     part_.tiles[i].name, painter_->renderer().read_tile(i));
   }
 
   void show() {
@@ -309,6 +317,7 @@ class TileRun {
   std::unique_ptr<Bus> bus_;
   WallTile tile_;
   ShownFile shown_;
+  CaptureWriter captures_;
   std::unique_ptr<Surface> surface_;
   std::optional<TilePainter> painter_;
   Loading loading_;

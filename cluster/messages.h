@@ -146,7 +146,7 @@ struct EventMessage {
   std::string text{};
 };
 
-enum class Verb { show, mode, go_to, pattern, blank, stop, overlay, clip };
+enum class Verb { show, mode, go_to, pattern, blank, stop, overlay, clip, capture };
 
 /// Consoles to the master and tiles. An argument is data: it never reaches a shell.
 struct CommandMessage {

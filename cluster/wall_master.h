@@ -86,6 +86,8 @@ class WallMaster {
   /// Of frames whose tiles have all reported, or that are too old to wait for more.
   std::vector<FrameSkew> take_skews();
   std::size_t active() const { return barrier_.active(); }
+  /// The number of the newest frame; 0: none was begun.
+  std::uint64_t newest() const { return newest_; }
 
  private:
   void hear(const ReadyMessage& ready, Time now);

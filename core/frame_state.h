@@ -26,7 +26,8 @@ struct Navigation {
 
 /// What is drawn over it, as bits.
 enum Overlay : std::uint32_t {
-  kStatistics = 1,  ///< of each tile in its own corner, and of the wall in one
+  kStatistics = 1,   ///< of each tile in its own corner, and of the wall in one
+  kKeepPicture = 2,  ///< nothing is drawn, but tiles keep this frame's picture (vindu capture)
 };
 
 struct FrameState {

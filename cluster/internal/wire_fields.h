@@ -215,7 +215,7 @@ requires std::same_as<std::remove_const_t<Value>, CommandMessage>
 void fields(Op& op, Wire& wire, Value& command) {
   op.name(wire.sender, command.sender);
   op.id(wire.request, command.request);
-  op.choice(wire.verb, command.verb, Verb::clip);
+  op.choice(wire.verb, command.verb, Verb::capture);
   op.whole_text(wire.tile, command.tile);
   op.whole_text(wire.argument, command.argument);
   op.whole_text(wire.clip, command.clip);

@@ -138,7 +138,7 @@ EventMessage event(Random& random) {
 CommandMessage command(Random& random) {
   return {.sender = text(random, 100),
           .request = id(random),
-          .verb = choice(random, Verb::clip),
+          .verb = choice(random, Verb::capture),
           .tile = text(random, 60),
           .argument = text(random, 1000),
           .clip = text(random, 250)};

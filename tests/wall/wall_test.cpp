@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "cluster/dds.h"
+#include "renderer/frame_counter.h"
 #include "renderer/image.h"
 #include "tests/app/osc_bytes.h"
 #include "tests/app/process.h"
@@ -348,6 +349,49 @@ TEST_F(WallTest, ShowsPatternsAndGoesBlankOnAllTilesInOneFrame) {
       dark += is;
     }
   EXPECT_GE(dark, 4 * 10);
+}
+
+/// What stands in the counters of a capture's tiles.
+std::set<std::optional<std::uint64_t>> numbers_in(const std::string& folder,
+                                                  const std::vector<std::string>& tiles) {
+  std::set<std::optional<std::uint64_t>> numbers;
+  for (const std::string& tile : tiles)
+    numbers.insert(read_frame_counter(read_png(folder + "/" + tile + ".png")));
+  return numbers;
+}
+
+TEST_F(WallTest, GivesPicturesOfOneFrameOfAllTilesAndNamesTheOneThatIsDead) {
+  setenv("XDG_RUNTIME_DIR", path("").c_str(), 1);
+  std::vector<Child> tiles;
+  for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
+  Child master = start_master();
+  for (const std::string& file : files()) await_swaps(file, 20);
+  const auto capture = [&](const std::string& out, const std::string& timeout_s) {
+    return testing::vindu(
+        {"capture", "--wall", wall_file_, "--out", path(out), "--timeout", timeout_s});
+  };
+  const ProcessResult whole = capture("whole", "60");
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  const auto numbers = numbers_in(path("whole"), all());
+  EXPECT_EQ(numbers.size(), 1u);
+  EXPECT_TRUE(*numbers.begin());
+  const Image wall = read_png(path("whole/wall.png")),
+              tile = read_png(path("whole/tile-1-1.png"));  // the upper right one
+  ASSERT_EQ(wall.width_px, 2 * tile.width_px);
+  ASSERT_EQ(wall.height_px, 2 * tile.height_px);
+  for (int y = 0; y < tile.height_px; ++y)
+    for (int x = 0; x < tile.width_px; ++x) ASSERT_EQ(wall.at(tile.width_px + x, y), tile.at(x, y));
+  EXPECT_EQ(read_png(path("whole/eye.png")).width_px, 1600);
+
+  tiles[2].send(SIGKILL);
+  tiles[2].end();
+  const ProcessResult less = capture("less", "5");
+  EXPECT_EQ(less.exit_code, 1);
+  EXPECT_THAT(less.err, HasSubstr("tile-0-1"));
+  EXPECT_THAT(files_in("less"), ::testing::ElementsAre("eye.png", "tile-0-0.png", "tile-1-0.png",
+                                                       "tile-1-1.png", "wall.png"));
+  EXPECT_EQ(numbers_in(path("less"), {"tile-0-0", "tile-1-0", "tile-1-1"}).size(), 1u);
+  unsetenv("XDG_RUNTIME_DIR");
 }
 
 TEST_F(WallTest, TellsSystemdThatATileDrawsAndThatItStillDoes) {

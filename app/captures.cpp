@@ -1,0 +1,101 @@
+#include "app/captures.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/log.h"
+
+namespace vindu::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kKept = 4;  // pictures of a tile
+
+/// systemd's, which is the user's own.
+std::string runtime_folder() {
+  const char* const folder = std::getenv("XDG_RUNTIME_DIR");
+  return folder ? folder : "";
+}
+
+/// Makes it for this user alone. One that is there already must be so: others may have made it.
+void make_private(const std::string& folder) {
+  mkdir(folder.c_str(), 0700);
+  struct stat state {};
+  const bool own = lstat(folder.c_str(), &state) == 0 && S_ISDIR(state.st_mode) &&
+                   state.st_uid == geteuid() && (state.st_mode & 022) == 0;
+  if (!own)
+    throw Error({"is no folder that you alone may write to", folder,
+                 "remove it, or set XDG_RUNTIME_DIR to one of yours"});
+}
+
+/// By name a tile's pictures are in order of time.
+void forget_old(const std::string& folder, const std::string& tile) {
+  std::vector<fs::path> own;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().filename().string().ends_with("-" + tile + ".png"))
+      own.push_back(entry.path());
+  std::ranges::sort(own);
+  for (std::size_t i = 0; i + kKept < own.size(); ++i) fs::remove(own[i], ignored);
+}
+
+void write(const std::string& folder, const std::string& file, const std::string& tile,
+           const Image& picture) {
+  const std::string part = folder + "/" + file + ".part";
+  write_png(picture, part);
+  fs::rename(part, folder + "/" + file);  // whole or not at all
+  forget_old(folder, tile);
+}
+
+}  // namespace
+
+std::string text_of(const CapturedFrame& frame) {
+  const Vec3& eye = frame.eye_in_wall;
+  return fmt::format("{} {} {} {} {}", frame.epoch, frame.number, eye.x(), eye.y(), eye.z());
+}
+
+std::optional<CapturedFrame> captured_frame_from(const std::string& text) {
+  std::istringstream words(text);
+  CapturedFrame frame;
+  words >> frame.epoch >> frame.number >> frame.eye_in_wall.x() >> frame.eye_in_wall.y() >>
+      frame.eye_in_wall.z();
+  if (!words || frame.epoch == 0 || frame.number == 0 || !frame.eye_in_wall.allFinite())
+    return std::nullopt;
+  return frame;
+}
+
+std::string capture_folder(const ClusterConfig& cluster) {
+  std::string user = runtime_folder();
+  if (user.empty()) make_private(user = fmt::format("/tmp/vindu-{}", geteuid()));
+  const std::string folder = fmt::format("{}/vindu-{}-{}", user, cluster.domain, cluster.name);
+  make_private(folder);
+  return folder;
+}
+
+std::string capture_file(const CapturedFrame& frame, const std::string& tile) {
+  return fmt::format("{:020}-{:012}-{}.png", frame.epoch, frame.number, tile);
+}
+
+void CaptureWriter::keep(const ClusterConfig& cluster, const CapturedFrame& frame,
+                         const std::string& tile, Image picture) {
+  std::erase_if(writing_, [](const std::future<void>& writing) {
+    return writing.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
+  writing_.push_back(std::async(std::launch::async, [=, picture = std::move(picture)] {
+    try {
+      write(capture_folder(cluster), capture_file(frame, tile), tile, picture);
+    } catch (const std::exception& error) {
+      log_warning(tile, std::string("keeps no picture: ") + error.what());
+    }
+  }));
+}
+
+}  // namespace vindu::app
