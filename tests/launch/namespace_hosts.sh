@@ -4,7 +4,7 @@
 #   namespace_hosts.sh up FOLDER PREFIX NAME...
 #   namespace_hosts.sh up_with_slurm FOLDER PREFIX NAME...    the first is the controller too
 #   namespace_hosts.sh host FOLDER PREFIX NAME     (one of them, called by "up")
-#   namespace_hosts.sh run FOLDER PREFIX NAME COMMAND...    a command on the network of one, in FOLDER
+#   namespace_hosts.sh run FOLDER PREFIX NAME COMMAND...    on the network of one, in FOLDER
 #   namespace_hosts.sh down FOLDER PREFIX
 # In FOLDER: NAME/root, a host's home; NAME/log, what its systemd and sshd say. PREFIX begins the
 # namespaces' names.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every model of Debian's assimp-testmodels through the real program: each gives a picture with
-something in it, or one clear line of error and exit code 1. What else happens fails: a crash, a hang,
-more than 4 GiB, an empty picture without a word.
+something in it, or one clear line of error and exit code 1. What else happens fails: a crash, a
+hang, more than 4 GiB, an empty picture without a word.
 
 Usage: every_model.py VINDU OUT [--sample N] [--only TEXT] [--jobs N] [--models DIR]
 
@@ -147,8 +147,8 @@ class Runner:
 
 
 def wait(process, until):
-    """Exit code, None where it was killed for taking too long, and what it and the processes that it
-    waited for have used."""
+    """Exit code, None where it was killed for taking too long, and what it and the processes that
+    it waited for have used."""
     late = False
     while True:
         pid, status, usage = os.wait4(process.pid, os.WNOHANG)
@@ -192,7 +192,8 @@ def table(outcomes):
                f"{max(o.seconds for o in of):8.1f}{max(o.mib for o in of):7.0f}")
     for what, key in (("slowest", lambda o: o.seconds), ("largest", lambda o: o.mib)):
         most = sorted(outcomes, key=key, reverse=True)[:3]
-        yield f"  {what}: " + ", ".join(f"{o.model} {o.seconds:.1f} s {o.mib:.0f} MiB" for o in most)
+        yield f"  {what}: " + ", ".join(f"{o.model} {o.seconds:.1f} s {o.mib:.0f} MiB"
+                                        for o in most)
 
 
 def sheet(outcomes, out):
