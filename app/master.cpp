@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <filesystem>
-#include <future>
 
 #include "app/captures.h"
 #include "app/commands.h"
@@ -14,6 +11,7 @@
 #include "app/emulation.h"
 #include "app/eye_source.h"
 #include "app/remote_eye.h"
+#include "app/stage.h"
 #include "app/stop_signals.h"
 #include "app/touch_eye.h"
 #include "app/wall_console.h"
@@ -23,7 +21,6 @@
 #include "cluster/wall_master.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "core/sha256.h"
 #include "renderer/clips.h"
 #include "renderer/resources.h"
 #include "tracker/eye_rest.h"
@@ -54,73 +51,6 @@ std::uint64_t new_epoch() {
                                     std::chrono::nanoseconds(1));
 }
 
-/// As tiles are told: the show is part of every installation, a model has one path on all hosts.
-std::string path_for_tiles(const std::string& model, const Site& site) {
-  const std::string file = model.empty() ? site.scene.model : model;
-  return file.empty() ? "asset:show/show.glb" : std::filesystem::absolute(file).string();
-}
-
-/// A scene as it is shown: where it stands, and what it plays.
-struct Stage {
-  Navigation navigation;
-  Box3f box_in_scene;
-  std::vector<std::string> clips;
-  int clip = 0;
-  std::string model;
-  Time clip_start{};
-
-  /// So that every frame shows something else.
-  bool plays() const { return clip >= 0 && static_cast<std::size_t>(clip) < clips.size(); }
-  /// Of the box, in wall.
-  std::array<Vec3, 8> corners_in_wall() const;
-};
-
-std::array<Vec3, 8> Stage::corners_in_wall() const {
-  std::array<Vec3, 8> corners;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner = box_in_scene.corner(static_cast<Box3f::CornerType>(i)).cast<double>();
-    corners[static_cast<std::size_t>(i)] =
-        navigation.wall_from_scene * Vec3(navigation.scale * corner);
-  }
-  return corners;
-}
-
-/// Reads a model beside the frames that go on, to know that it can be read and where it stands.
-class Placing {
- public:
-  struct Placed {
-    Stage stage;
-    std::string sha256;  // of the model
-  };
-  struct Wish {
-    std::string model;
-    std::string clip;
-    std::optional<Placement> place;
-  };
-
-  void start(const Wish& wish, const Site& site) {
-    wish_ = wish;
-    result_ = std::async(std::launch::async, [wish, &site] {
-      const std::string file = model_file(path_for_tiles(wish.model, site));
-      const LoadedScene loaded = load_scene(wish.model, wish.place, site, wish.clip);
-      return Placed{{loaded.navigation, bounds_in_scene(loaded.scene), clip_names(loaded.scene),
-                     loaded.clip, loaded.scene.name},
-                    sha256_of_file(file).value_or("")};
-    });
-  }
-  bool running() const { return result_.valid(); }
-  bool done() const {
-    return running() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  }
-  const Wish& wish() const { return wish_; }
-  /// Throws what reading threw.
-  Placed take() { return result_.get(); }
-
- private:
-  Wish wish_;
-  std::future<Placed> result_;
-};
-
 class MasterRun {
  public:
   MasterRun(const MasterCommand& command, const Site& site)
@@ -143,7 +73,7 @@ class MasterRun {
         pattern_(command.pattern),
         figures_(tile_names(site.wall), display_latency(), command.csv_file) {
     set_mode(command.mode, command.path_file);
-    placing_.start({command.model, command.clip, command.place}, site);
+    staging_.start({command.model, command.clip, command.place}, site);
   }
 
   /// Throws Error when the first scene cannot be read.
@@ -164,7 +94,7 @@ class MasterRun {
         tick = start + from_seconds(static_cast<double>(passed + 1) / site_.rate_hz);
       }
       Time wake = wall_.open() ? tick : wall_.wake_time();
-      if (placing_.running()) wake = std::min(wake, now + std::chrono::milliseconds(5));
+      if (staging_.running()) wake = std::min(wake, now + std::chrono::milliseconds(5));
       bus_->wait(kHears, wake);
     }
     figures_.length = clock_.now() - start;
@@ -295,13 +225,13 @@ class MasterRun {
   /// A scene that can be read goes out to the tiles; its place counts from the frame on in which
   /// they change to it.
   void follow_scenes() {
-    if (!placing_.done()) return;
+    if (!staging_.done()) return;
     try {
-      const Placing::Placed placed = placing_.take();
-      const auto& [model, clip, place] = placing_.wish();
+      const Staging::Staged staged = staging_.take();
+      const auto& [model, clip, place] = staging_.wish();
       const std::uint64_t revision =
-          wall_.show(path_for_tiles(model, site_), placed.sha256, place.value_or(Placement::fit));
-      stages_[revision] = placed.stage;
+          wall_.show(path_for_tiles(model, site_), staged.sha256, place.value_or(Placement::fit));
+      stages_[revision] = staged.stage;
       reply(asked_scene_, true, "");
     } catch (const Error& error) {
       if (asked_scene_.request == 0) throw;
@@ -326,10 +256,10 @@ class MasterRun {
   void obey(const CommandMessage& command) {
     switch (command.verb) {
       case Verb::show:
-        if (placing_.running())
+        if (staging_.running())
           return reply(command, false, "another scene is being read; ask again");
         asked_scene_ = command;
-        return placing_.start({command.argument, command.clip, std::nullopt}, site_);
+        return staging_.start({command.argument, command.clip, std::nullopt}, site_);
       case Verb::clip:
         play(command.argument);
         break;
@@ -414,7 +344,7 @@ class MasterRun {
   TouchEye touch_{*bus_, site_};
   std::unique_ptr<EyeSource> path_, tracked_;  // cameras are opened once, by the mode track
   EyeSource* eyes_ = nullptr;
-  Placing placing_;
+  Staging staging_;
   CommandMessage asked_scene_;  // answered when it could be read; request 0: the first one
   std::map<std::uint64_t, Stage> stages_;  // by scene
   std::uint64_t staged_scene_ = 0;

@@ -1,0 +1,40 @@
+#include "app/stage.h"
+
+#include <filesystem>
+
+#include "app/common.h"
+#include "core/sha256.h"
+#include "renderer/clips.h"
+
+namespace vindu::app {
+
+std::array<Vec3, 8> Stage::corners_in_wall() const {
+  std::array<Vec3, 8> corners;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner = box_in_scene.corner(static_cast<Box3f::CornerType>(i)).cast<double>();
+    corners[static_cast<std::size_t>(i)] =
+        navigation.wall_from_scene * Vec3(navigation.scale * corner);
+  }
+  return corners;
+}
+
+std::string path_for_tiles(const std::string& model, const Site& site) {
+  const std::string file = model.empty() ? site.scene.model : model;
+  return file.empty() ? "asset:show/show.glb" : std::filesystem::absolute(file).string();
+}
+
+void Staging::start(const Wish& wish, const Site& site) {
+  wish_ = wish;
+  result_ = std::async(std::launch::async, [wish, &site] {
+    const std::string file = model_file(path_for_tiles(wish.model, site));
+    const LoadedScene loaded = load_scene(wish.model, wish.place, site, wish.clip);
+    return Staged{{.navigation = loaded.navigation,
+                   .box_in_scene = bounds_in_scene(loaded.scene),
+                   .clips = clip_names(loaded.scene),
+                   .clip = loaded.clip,
+                   .model = loaded.scene.name},
+                  sha256_of_file(file).value_or("")};
+  });
+}
+
+}  // namespace vindu::app

@@ -1,0 +1,64 @@
+// A wall's scene as its master knows it: where it stands and what it plays; and how a model becomes
+// one, beside the frames that go on.
+#pragma once
+
+#include <array>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frame_state.h"
+#include "core/site.h"
+#include "renderer/scene.h"
+
+namespace vindu::app {
+
+struct Stage {
+  Navigation navigation;
+  Box3f box_in_scene;
+  std::vector<std::string> clips;
+  int clip = 0;
+  std::string model;
+  Time clip_start{};
+
+  /// So that every frame shows something else.
+  bool plays() const { return clip >= 0 && static_cast<std::size_t>(clip) < clips.size(); }
+  /// Of the box, in wall.
+  std::array<Vec3, 8> corners_in_wall() const;
+};
+
+/// As tiles are told: the show is part of every installation, a model has one path on all hosts. An
+/// empty name is the wall file's scene.
+std::string path_for_tiles(const std::string& model, const Site& site);
+
+/// Reads a model to know that it can be read and where it stands. Bound to one thread; reading has
+/// one of its own.
+class Staging {
+ public:
+  struct Wish {
+    std::string model;
+    std::string clip;
+    std::optional<Placement> place;
+  };
+  struct Staged {
+    Stage stage;
+    std::string sha256;  ///< of the model
+  };
+
+  /// `site` must outlive the reading.
+  void start(const Wish& wish, const Site& site);
+  bool running() const { return result_.valid(); }
+  bool done() const {
+    return running() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
+  const Wish& wish() const { return wish_; }
+  /// Throws what reading threw.
+  Staged take() { return result_.get(); }
+
+ private:
+  Wish wish_;
+  std::future<Staged> result_;
+};
+
+}  // namespace vindu::app
