@@ -111,7 +111,7 @@ void add_pack(CLI::App& parent, Action& chosen) {
                   "What reading it may take (default: 4096, more for files above 136 MiB)")
       ->check(between(16, 1e7));
   app->add_option("--seconds", command->seconds,
-                  "And how long (default: 60, and one for each MiB of the file)")
+                  "And how long (default: 60, and two for each MiB of the file)")
       ->check(between(1, 1e6));
   app->add_flag("--here", command->here, "In this process: a broken file may end it");
   app->footer(

@@ -117,7 +117,7 @@ PackLimits limits_for(const std::string& model) {
   const auto bytes = fs::file_size(model, error);
   PackLimits limits;
   if (error) return limits;
-  limits.time += std::chrono::seconds(bytes >> 20);  // and a second for each MiB
+  limits.time += 2 * std::chrono::seconds(bytes >> 20);  // and two for each MiB
   limits.memory_bytes = std::max(limits.memory_bytes, 30 * bytes);
   return limits;
 }

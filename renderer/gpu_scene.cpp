@@ -225,10 +225,14 @@ void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s, int c
   glNamedBufferSubData(nodes_.name(), 0, static_cast<GLsizeiptr>(blocks.size()), blocks.data());
   skin_.pose(world_from_nodes_);
   place_draws();
+  int node = -1;
+  double stretch = 0;
   for (PosedCoarsening& posed : coarsenings_) {
     const Eigen::Matrix4f& world_from_node = world_from_nodes_[posed.node];
+    if (posed.node != node) stretch = largest_stretch(world_from_node);
+    node = posed.node;
     posed.bounds_in_world = moved(posed.in_node.bounds_in_node, world_from_node);
-    posed.error_m = posed.in_node.error_in_node * largest_stretch(world_from_node);
+    posed.error_m = posed.in_node.error_in_node * stretch;
   }
 }
 
