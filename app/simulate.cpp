@@ -229,8 +229,8 @@ LoopResult play(Run& run) {
                    .display_latency = from_seconds(1e-3 * run.site.viewer.display_latency_ms),
                    .length = {},
                    .navigation = run.loaded.navigation,
-                   .clip = run.loaded.clip,
-                   .pattern = run.options.pattern};
+                   .pattern = run.options.pattern,
+                   .clip = run.loaded.clip};
   auto* const window = dynamic_cast<Window*>(run.surface.get());
   if (run.options.seconds || !window) loop.length = from_seconds(run.options.seconds.value_or(15));
   std::optional<WindowPainter> painter;

@@ -361,8 +361,7 @@ void add_tile(CLI::App& parent, Action& chosen) {
       ->check(between(0.0, 1.0));
   app->add_option("--shown", command->shown_file,
                   "Writes for each swap when it was, which frame it showed, and the number\n"
-                  "that it shows in its pixels (vindu pattern counter, or bar); into a new file
-                  "
+                  "that it shows in its pixels (vindu pattern counter, or bar); into a new file\n"
                   "for each start where this is a folder")
       ->type_name("FILE|DIR/");
   app->footer(
