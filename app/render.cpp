@@ -119,7 +119,7 @@ void add_render(CLI::App& parent, Action& chosen) {
       "\nExamples:\n"
       "  vindu render model.glb --wall wall.toml --eye -1,0.1,2 --scale 0.25 --out pictures\n"
       "  vindu render scan.ply --tile tile-3-1 --place life-size\n"
-      "  vindu render wolf.x --clip Walk --time 0.5\n"
+      "  vindu render beast.x --clip Walk --time 0.5\n"
       "  vindu render --pattern grid --wall wall.toml --scale 0.25\n");
   app->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }

@@ -56,7 +56,7 @@ void add_show(CLI::App& parent, Action& chosen) {
   app->footer(
       "\nExamples:\n"
       "  vindu show model.glb\n"
-      "  vindu show wolf.x --clip Walk --wall wall.toml\n");
+      "  vindu show beast.x --clip Walk --wall wall.toml\n");
   app->callback([command, &chosen] {
     chosen = [command] {
       return ask(*command, Verb::show, std::filesystem::absolute(command->argument));

@@ -15,7 +15,7 @@ const std::vector<std::string> kClips = {"Walk", "Run", "", "2", "Run"};
 
 std::string complaint_about(const std::vector<std::string>& clips, const std::string& wish) {
   try {
-    find_clip(clips, wish, "wolf.x");
+    find_clip(clips, wish, "beast.x");
   } catch (const Error& error) {
     return error.what();
   }
@@ -40,7 +40,7 @@ TEST(Clips, MayBeLeftToTheFirstOrRest) {
 TEST(Clips, ThatAreNotThereAreRefusedWithAListOfThoseThatAre) {
   for (const char* wish : {"walk", "0", "6", "-1", "1.5", "1 ", "99999999999999999999"})
     EXPECT_THAT(complaint_about(kClips, wish),
-                AllOf(HasSubstr("wolf.x"), HasSubstr(wish),
+                AllOf(HasSubstr("beast.x"), HasSubstr(wish),
                       HasSubstr("1 Walk, 2 Run, 3 (no name), 4 2, 5 Run")))
         << wish;
   EXPECT_THAT(complaint_about({}, "Walk"), HasSubstr("has no clips"));

@@ -491,9 +491,9 @@ class Listener {
 };
 
 TEST_F(WallTest, PlaysTheClipThatItIsToldAndRefusesOneThatIsNotThere) {
-  const std::string wolf = "/usr/share/assimp/models/X/Testwuson.X";
+  const std::string beast = "/usr/share/assimp/models/X/Testwuson.X";
   Child tile = start_tile("tile-0-0");
-  Child master({VINDU_PROGRAM, "master", wolf, "--clip", "Wuson_Walk", "--wall", wall_file_,
+  Child master({VINDU_PROGRAM, "master", beast, "--clip", "Wuson_Walk", "--wall", wall_file_,
                 "--mode", "loop", "--pattern", "counter"},
                path("master.log"));
   await_swaps("tile-0-0.csv", 5);
@@ -511,8 +511,8 @@ TEST_F(WallTest, PlaysTheClipThatItIsToldAndRefusesOneThatIsNotThere) {
   const ProcessResult unknown = ask({"clip", "fly"});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_THAT(unknown.err, HasSubstr("1 Wuson_Run, 2 Wuson_Walk"));
-  EXPECT_EQ(ask({"show", wolf, "--clip", "fly"}).exit_code, 1);
-  EXPECT_EQ(ask({"show", wolf, "--clip", "rest"}).exit_code, 0);
+  EXPECT_EQ(ask({"show", beast, "--clip", "fly"}).exit_code, 1);
+  EXPECT_EQ(ask({"show", beast, "--clip", "rest"}).exit_code, 0);
   listener.await_clip(-1);
   await_swaps("tile-0-0.csv", 5);
   EXPECT_EQ(ask({"stop"}).exit_code, 0);
