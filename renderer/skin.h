@@ -23,7 +23,7 @@ struct Joint {
   Eigen::Matrix4f joint_from_mesh = Eigen::Matrix4f::Identity();  ///< when it was bound
 };
 
-/// As many matrices as every GPU has room for (65,536 texels, OpenGL 4.5 table 23.53).
+/// As many matrices as every GPU has room for in a buffer texture (65,536 texels at least).
 constexpr std::size_t kMaxJoints = 16'384;
 
 struct Skin {
