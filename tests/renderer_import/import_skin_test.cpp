@@ -193,9 +193,8 @@ TEST(SkinnedModels, GltfsSimpleSkinTurnsItsUpperHalf) {
 
 // Each format's character stays in one piece and of its own size while it plays.
 TEST(SkinnedModels, OfSeveralFormatsMoveAndStayInOnePiece) {
-  for (const char* file :
-       {"X/Testwuson.X", "X/BCN_Epileptic.X", "FBX/huesitos.fbx", "FBX/animation_with_skeleton.fbx",
-        "MDL/MDL (HL1)/man.mdl", "Collada/box_nested_animation.dae"}) {
+  for (const char* file : {"X/Testwuson.X", "X/BCN_Epileptic.X", "FBX/huesitos.fbx",
+                           "FBX/animation_with_skeleton.fbx", "Collada/box_nested_animation.dae"}) {
     const Scene scene = import_scene(test::test_model(file)).scene;
     ASSERT_FALSE(scene.skin.influences.empty()) << file;
     ASSERT_FALSE(scene.animations.empty()) << file;
