@@ -472,7 +472,7 @@ class Listener {
         bus_(transport_.join({{.role = Role::console,
                                .name = "listener-" + std::to_string(getpid()),
                                .host = "here",
-                               .version = VINDU_VERSION},
+                               .version = "test"},
                               {},
                               {Topic::frame}})) {}
 
