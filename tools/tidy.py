@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""clang-tidy over every source of Vindu, by .clang-tidy, with the compile commands of the preset dev.
+"""clang-tidy over every source of Vindu, by .clang-tidy, with the commands of the preset dev.
 
 Usage: tidy.py [REGEX ...]: those sources alone whose path matches one: tools/tidy.py core/frustum.
 Needs a configured build (./test). A source that was clean is remembered in build/tidy-clean by its

@@ -108,7 +108,9 @@ TEST_F(Views, SayWhichTilesWereNeverHeardOf) {
 TEST_F(Views, CountFramesOfOneMasterAlone) {
   const Time start{std::chrono::seconds(100)};
   const auto frame = [](std::uint64_t epoch, std::uint64_t number) {
-    return FrameMessage{.epoch = epoch, .newest = {.number = number}, .active_tiles = 28};
+    FrameMessage message{.epoch = epoch, .newest = {.number = number}, .active_tiles = 28};
+    message.newest.eye_in_wall.x() = 1e-3 * static_cast<double>(number);
+    return message;
   };
   view_.hear(frame(7, 1000), start);
   view_.hear(frame(7, 1060), start + std::chrono::seconds(1));
@@ -118,6 +120,17 @@ TEST_F(Views, CountFramesOfOneMasterAlone) {
   view_.hear(frame(7, 1061), start + std::chrono::seconds(2));
   view_.hear(frame(8, 31), start + std::chrono::seconds(3));
   EXPECT_THAT(table_of(view_.now()), HasSubstr("frame 31, 30.0 fps"));
+}
+
+TEST_F(Views, SayThatNothingChangesWhereFramesLookAlike) {
+  const Time start{std::chrono::seconds(100)};
+  FrameMessage message{.epoch = 7, .newest = {.number = 1}};
+  for (int half_s = 0; half_s < 4; ++half_s, ++message.newest.number)
+    view_.hear(message, start + half_s * std::chrono::milliseconds(500));
+  EXPECT_THAT(table_of(view_.now()), HasSubstr("2.0 fps since nothing changes"));
+  message.newest.eye_in_wall.x() += 0.1;
+  view_.hear(message, start + std::chrono::seconds(2));
+  EXPECT_THAT(table_of(view_.now()), Not(HasSubstr("since nothing changes")));
 }
 
 TEST_F(Views, AMasterThatLeavesIsMissedUnlessAnotherCame) {
