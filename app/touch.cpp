@@ -115,8 +115,7 @@ void listen(const TouchCommand& command, Sender& sender, const std::function<boo
   TuioReader reader;
   log_info("touch", fmt::format("listens for TUIO on {}:{}", command.listen, command.port));
   while (goes_on())
-    for (auto datagram = datagrams.next(); !datagram.empty() && goes_on();
-         datagram = datagrams.next())
+    if (const auto datagram = datagrams.next(); !datagram.empty())
       for (const TuioChange& change : reader.read(datagram)) sender.send(change);
   fmt::print("{} changes of points sent, {} messages were no TUIO\n", sender.sent(),
              reader.refused());

@@ -16,9 +16,8 @@ struct Difference {
 };
 
 /// Software GL of another Mesa or another processor decides for single samples at edges otherwise:
-/// one of four, from black to white, is 137 levels; and rounds one pixel in fifteen by a level (seen
-/// between two generations of Xeon: 0.057 in the mean). Nothing else may differ, so the mean is
-/// small.
+/// one of four, from black to white, is 137 levels; and one pixel in fifteen is rounded by a level
+/// (seen between two machines: 0.057 in the mean). Nothing else may differ, so the mean is small.
 struct Tolerance {
   int largest_levels = 140;
   double mean_levels = 0.1;
