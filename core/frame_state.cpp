@@ -17,16 +17,14 @@ class Fnv1a {
   void add(const Vec3& value) {
     for (const double part : value) add(part);
   }
-  void add_content(const FrameState& state) {
+  /// The model as the eye sees it.
+  void add_view(const FrameState& state) {
     add(state.eye_in_wall);
     for (const double part : state.navigation.wall_from_scene.rotation.coeffs()) add(part);
     add(state.navigation.wall_from_scene.translation);
     add(state.navigation.scale);
     add(state.animation_time_s);
     add(static_cast<std::uint64_t>(state.clip));
-    add(std::uint64_t{state.overlays});
-    add(static_cast<std::uint64_t>(state.pattern));
-    add(std::uint64_t{state.blank});
   }
   std::uint64_t value() const { return hash_; }
 
@@ -41,16 +39,24 @@ std::uint64_t hash_of(const FrameState& state) {
   hash.add(state.number);
   hash.add(static_cast<std::uint64_t>(state.photon_time.time_since_epoch().count()));
   hash.add(static_cast<std::uint64_t>(state.mode));
-  hash.add_content(state);
+  hash.add_view(state);
+  hash.add(std::uint64_t{state.overlays});
+  hash.add(static_cast<std::uint64_t>(state.pattern));
+  hash.add(std::uint64_t{state.blank});
   return hash.value();
 }
 
 std::uint64_t content_hash_of(const FrameState& state) {
   Fnv1a hash;
-  hash.add_content(state);
+  hash.add(std::uint64_t{state.overlays});
+  hash.add(std::uint64_t{state.blank});
+  if (state.blank) return hash.value();
+  hash.add(static_cast<std::uint64_t>(state.pattern));
+  if (shows_model(state)) hash.add_view(state);
+  if (state.pattern == Pattern::eye) hash.add(state.eye_in_wall);
   const bool moves =
       state.overlays != 0 || state.pattern == Pattern::counter || state.pattern == Pattern::bar;
-  if (moves && !state.blank) hash.add(state.number);
+  if (moves) hash.add(state.number);
   return hash.value();
 }
 

@@ -89,6 +89,17 @@ TEST(ContentHash, DiffersInEveryFrameThatShowsItsFiguresUnlessItIsBlank) {
   }
 }
 
+TEST(ContentHash, OfAPatternThatStandsStillDoesNotCareForTheModelBehindIt) {
+  FrameState one = some_state();
+  one.pattern = Pattern::names;
+  FrameState other = one;
+  other.animation_time_s += 1;
+  other.eye_in_wall.x() += 1;
+  EXPECT_EQ(content_hash_of(one), content_hash_of(other));
+  one.pattern = other.pattern = Pattern::eye;
+  EXPECT_NE(content_hash_of(one), content_hash_of(other));
+}
+
 TEST(FrameHash, TellsExchangedCoordinatesApart) {
   FrameState one = some_state(), other = some_state();
   one.eye_in_wall = {1, 2, 3};
