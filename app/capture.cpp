@@ -23,8 +23,6 @@
 namespace vindu::app {
 namespace {
 
-constexpr SizePx kEyePicture{1600, 900};
-
 struct CaptureCommand {
   std::string wall_file;
   std::vector<std::string> tiles;

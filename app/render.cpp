@@ -1,9 +1,11 @@
 // vindu render: pictures of a model, or of a test pattern, on a wall from one eye, off-screen.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/film.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/eye_picture.h"
@@ -12,8 +14,6 @@
 
 namespace vindu::app {
 namespace {
-
-constexpr SizePx kEyePicture{1600, 900};
 
 struct RenderOptions {
   std::string model;
@@ -29,6 +29,10 @@ struct RenderOptions {
   Pattern pattern = Pattern::none;
   bool all = false;
   bool unlit = false;
+  std::string path_file;
+  std::string view = "wall";
+  double rate_hz = 30;
+  std::optional<double> length_s;
 };
 
 void save(const Image& image, const std::string& file) {
@@ -53,9 +57,20 @@ const Tile* chosen_tile(const Wall& wall, const std::string& name) {
   return tile;
 }
 
+void film(const RenderOptions& options, WallRenderer& wall, const FrameState& state) {
+  const CameraPath path = read_camera_path(options.path_file);
+  make_film(wall, path, state,
+            {.rate_hz = options.rate_hz,
+             .length_s = options.length_s.value_or(path.period_s()),
+             .view = options.tile.empty() ? options.view : options.tile,
+             .out = options.out});
+}
+
 int render(const RenderOptions& options) {
   const Site site = load_site(options.wall_file);
   const Tile* only = chosen_tile(site.wall, options.tile);
+  if (options.out == "-" && options.path_file.empty())
+    throw Error({"takes frames of a film alone", "--out -", "add --path FILE, or name a folder"});
   const Time photon_time = Time{} + from_seconds(options.time_s);
   FrameState state{.number = static_cast<std::uint64_t>(options.time_s * site.rate_hz),
                    .photon_time = photon_time,
@@ -64,7 +79,7 @@ int render(const RenderOptions& options) {
                    .pattern = options.pattern};
   std::optional<LoadedScene> loaded;
   if (shows_model(state)) loaded = load_scene(options.model, options.place, site, options.clip);
-  make_folder(options.out);
+  if (options.out != "-") make_folder(options.out);
   const auto surface = make_headless_surface({.device = options.device});
   log_debug("render", gl_description());
   WallRenderer wall(site.wall, options.scale, Look{options.unlit ? Style::unlit : Style::lit});
@@ -72,6 +87,10 @@ int render(const RenderOptions& options) {
     wall.show(loaded->scene);
     state.navigation = loaded->navigation;
     state.clip = loaded->clip;
+  }
+  if (!options.path_file.empty()) {
+    film(options, wall, state);
+    return 0;
   }
   const WallFrame frame = wall.draw(state, only);
   for (const std::string& name : frame.black_tiles)
@@ -81,6 +100,21 @@ int render(const RenderOptions& options) {
   save(wall.picture().read(), options.out + "/wall.png");
   save(picture_from_eye(wall, state.eye_in_wall, kEyePicture), options.out + "/eye.png");
   return 0;
+}
+
+void add_film(CLI::App& app, RenderOptions& options) {
+  auto* path = app.add_option("--path", options.path_file,
+                              "A film instead: frames along this camera path, frame-00001.png ...")
+                   ->type_name("FILE");
+  app.add_option("--fps", options.rate_hz, "Of the film (default: 30)")
+      ->check(between(0.01, 10000.0))
+      ->needs(path);
+  app.add_option("--seconds", options.length_s, "Of the film (default: once along the path)")
+      ->check(between(0.001, 1e6))
+      ->needs(path);
+  app.add_option("--view", options.view, "Of the film: wall (default), or eye; --tile for one tile")
+      ->check(CLI::IsMember({"wall", "eye"}))
+      ->needs(path);
 }
 
 }  // namespace
@@ -111,8 +145,10 @@ void add_render(CLI::App& parent, Action& chosen) {
       ->check(between(0.0, 1e9));
   add_clip(*app, options->clip);
   app->add_option("--device", options->device, "EGL device (GPU) by its index");
-  app->add_option("--out", options->out, "Folder for the pictures (default: out)")
+  app->add_option("--out", options->out,
+                  "Folder for the pictures (default: out); of a film also -, the output stream")
       ->type_name("DIR");
+  add_film(*app, *options);
   app->footer(
       "\nWrites tile-X-Y.png for each tile, wall.png (the whole wall as one picture) and eye.png "
       "(what the viewer sees).\n"
@@ -120,7 +156,8 @@ void add_render(CLI::App& parent, Action& chosen) {
       "  vindu render model.glb --wall wall.toml --eye -1,0.1,2 --scale 0.25 --out pictures\n"
       "  vindu render scan.ply --tile tile-3-1 --place life-size\n"
       "  vindu render beast.x --clip Walk --time 0.5\n"
-      "  vindu render --pattern grid --wall wall.toml --scale 0.25\n");
+      "  vindu render --pattern grid --wall wall.toml --scale 0.25\n"
+      "  vindu render model.glb --path walk.toml --view eye --fps 60 --out frames\n");
   app->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }
 

@@ -11,8 +11,10 @@
 #include "app/replay_json.h"
 #include "app/replay_parts.h"
 #include "app/replay_summary.h"
+#include "core/camera_path.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "tracker/eye_ease.h"
 #include "tracker/recording_devices.h"
 #include "tracker/tracker.h"
 #include "tracker/wiimote/reader.h"
@@ -27,6 +29,7 @@ struct ReplayCommand {
   std::string file;
   std::string wall_file;
   std::string speed = "max";
+  std::string path_file;
   bool track = false;
   bool parts = false;
   bool json = false;
@@ -144,6 +147,30 @@ class Lookahead {
   Time last_{};
 };
 
+/// The eye as a wall would have shown it, tick by tick, as a camera path.
+class EyePath {
+ public:
+  explicit EyePath(const Site& site) : ease_(site.viewer.default_eye_in_wall) {}
+
+  void add(const Tracker& tracker, const std::optional<PoseSample>& pose, Time now) {
+    const bool known = pose && pose->level < TrackingLevel::held;
+    if (keys_.empty()) start_ = now;
+    keys_.push_back(
+        {seconds(now - start_),
+         ease_.update(known ? std::optional(tracker.eye_in_wall(*pose)) : std::nullopt, now)});
+  }
+  void write(const std::string& file) const {
+    if (keys_.size() < 2)
+      throw Error({"is too short for a camera path", "the recording", "record some seconds"});
+    write_camera_path(keys_, file);
+  }
+
+ private:
+  EyeEase ease_;
+  Time start_{};
+  std::vector<PathKey> keys_;
+};
+
 int track(const ReplayCommand& command, const RecordingSummary& summary) {
   const Site site = site_for(command, summary.info);
   const Pace pace = pace_of(command, summary.first);
@@ -152,7 +179,9 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
   Lookahead ahead(command.file, command.damage());
   PoseLines lines(site, targets_from(command.targets));
   ReplayParts parts;
+  EyePath path(site);
   const auto end = [&] {
+    if (!command.path_file.empty()) path.write(command.path_file);
     if (command.parts) std::fputs(parts.table().c_str(), stdout);
     return 0;
   };
@@ -167,7 +196,8 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
     solve.go_on();
     const auto pose = tracker.track(now, now + predicted);
     parts.add(now, pose, solve.pause());
-    if (!command.parts)
+    path.add(tracker, pose, now);
+    if (command.track)
       for (const std::string& line : lines.news(tracker, -pace.shift)) put_line(line);
     if (ticks.now() >= summary.last) return end();
     if (const auto next = ahead.silent_until(ticks.now())) ticks.advance_to(*next);
@@ -196,7 +226,7 @@ int replay(const ReplayCommand& command) {
   if (command.speed == "real") std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const RecordingSummary summary = summarize(command.file, command.damage());
   for (const std::string& remark : summary.problems.remarks) log_warning("replay", remark);
-  if (command.track || command.parts) return track(command, summary);
+  if (command.track || command.parts || !command.path_file.empty()) return track(command, summary);
   if (command.text) print_comments(summary);
   if (command.text || command.json) return print_reports(command, summary);
   std::fputs(table_of(summary).c_str(), stdout);
@@ -225,6 +255,11 @@ void add_replay(CLI::App& parent, Action& chosen) {
       ->excludes(track)
       ->excludes(parts)
       ->excludes(json);
+  app->add_option("--path", command->path_file,
+                  "Track, and write the eye as a camera path: for the mode loop, and for films\n"
+                  "(vindu render --path)")
+      ->excludes(json)
+      ->type_name("FILE");
   app->add_option("--speed", command->speed,
                   "real: as it was recorded; max: as fast as it can (default)")
       ->check(CLI::IsMember({"real", "max"}));
@@ -241,6 +276,7 @@ void add_replay(CLI::App& parent, Action& chosen) {
       "  vindu replay walk.vrec\n"
       "  vindu replay walk.vrec --track > poses.jsonl\n"
       "  vindu replay walk.vrec --parts\n"
+      "  vindu replay walk.vrec --path walk.toml\n"
       "  vindu replay walk.vrec --text > walk.txt\n"
       "  vindu replay walk.txt --track --wall wall.toml --speed real\n");
   app->callback([command, &chosen] { chosen = [command] { return replay(*command); }; });

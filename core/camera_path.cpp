@@ -1,8 +1,12 @@
 #include "core/camera_path.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <fstream>
+#include <iomanip>
 
+#include "core/error.h"
 #include "core/internal/toml_table.h"
 
 namespace vindu {
@@ -24,14 +28,26 @@ Vec3 CameraPath::tangent_m_s(std::size_t key) const {
 Vec3 CameraPath::eye_at(double t_s) const {
   double t = std::fmod(t_s, period_s());
   if (t < 0) t += period_s();
-  std::size_t from = keys_.size() - 1;
-  while (from > 0 && keys_[from].t_s > t) --from;
+  const auto later = std::ranges::upper_bound(keys_.begin() + 1, keys_.end(), t, {}, &PathKey::t_s);
+  const auto from = static_cast<std::size_t>(later - keys_.begin()) - 1;
   const std::size_t to = wrapped(from + 1);
   const double span = span_s(from), u = (t - keys_[from].t_s) / span;
   const double u2 = u * u, u3 = u2 * u;
   return (2 * u3 - 3 * u2 + 1) * keys_[from].eye_in_wall +
          (u3 - 2 * u2 + u) * span * tangent_m_s(from) + (3 * u2 - 2 * u3) * keys_[to].eye_in_wall +
          (u3 - u2) * span * tangent_m_s(to);
+}
+
+void write_camera_path(const std::vector<PathKey>& keys, const std::string& file) {
+  std::ofstream stream(file);
+  stream << "closing_s = 1.0\n" << std::fixed << std::setprecision(6);
+  for (const PathKey& key : keys) {
+    const Vec3& eye = key.eye_in_wall;
+    stream << "[[key]]\nt_s = " << key.t_s << "\neye_m = [" << eye.x() << ", " << eye.y() << ", "
+           << eye.z() << "]\n";
+  }
+  stream.close();
+  if (!stream) throw Error({"cannot be written", file, "choose another file"});
 }
 
 CameraPath read_camera_path(const std::string& file) {

@@ -34,6 +34,10 @@ class CameraPath {
   double closing_s_;
 };
 
+/// Such a file, with a second from the last key to the first. Throws Error when it cannot be
+/// written.
+void write_camera_path(const std::vector<PathKey>& keys, const std::string& file);
+
 /// File: closing_s = 2.0 and [[key]] tables with t_s and eye_m. Throws Error with file and line.
 CameraPath read_camera_path(const std::string& file);
 

@@ -5,6 +5,9 @@
 
 namespace vindu {
 
+/// As it is saved.
+constexpr SizePx kEyePicture{1600, 900};
+
 /// The wall must have been drawn for that eye. Around the wall it is dark.
 Image picture_from_eye(WallRenderer& wall, const Vec3& eye_in_wall, SizePx size);
 

@@ -46,6 +46,45 @@ TEST_F(RenderCommand, WritesAllWithoutBeingAskedTo) {
   EXPECT_EQ(files_in("out"), all_files());
 }
 
+constexpr const char* kWalk =
+    "closing_s = 1\n[[key]]\nt_s = 0\neye_m = [-1, 0, 2]\n[[key]]\nt_s = 1\neye_m = [1, 0, 2]\n";
+
+TEST_F(RenderCommand, MakesTheFramesOfAFilmBitEqualEachTime) {
+  const std::vector<std::string> film = {
+      "--path", write("path.toml", kWalk), "--fps", "4", "--seconds", "1.5"};
+  std::vector<std::string> once = film, again = film;
+  once.insert(once.end(), {"--out", path("once")});
+  again.insert(again.end(), {"--out", path("again")});
+  ASSERT_EQ(render(once).exit_code, 0);
+  ASSERT_EQ(render(again).exit_code, 0);
+  ASSERT_THAT(files_in("once"), SizeIs(6));
+  EXPECT_EQ(files_in("once").front(), "frame-00001.png");
+  for (const std::string& frame : files_in("once"))
+    EXPECT_EQ(bytes_of(path("once/" + frame)), bytes_of(path("again/" + frame))) << frame;
+  // The path's key at 1 s is the fifth frame.
+  ASSERT_EQ(render({"--eye", "1,0,2", "--time", "1"}).exit_code, 0);
+  EXPECT_EQ(read_png(path("once/frame-00005.png")), read_png(path("out/wall.png")));
+  EXPECT_NE(read_png(path("once/frame-00001.png")), read_png(path("out/wall.png")));
+}
+
+TEST_F(RenderCommand, WritesAFilmsPixelsToTheOutputStream) {
+  const std::string file = write("path.toml", kWalk);
+  const std::vector<std::string> film = {"--path", file, "--fps", "2", "--seconds", "1"};
+  std::vector<std::string> pictures = film, stream = film;
+  pictures.insert(pictures.end(), {"--tile", "tile-3-1"});
+  stream.insert(stream.end(), {"--tile", "tile-3-1", "--out", "-"});
+  ASSERT_EQ(render(pictures).exit_code, 0);
+  const ProcessResult result = render(stream);
+  EXPECT_EQ(result.exit_code, 0);
+  std::string bytes;
+  for (const std::string& frame : files_in("out"))
+    for (const Rgba8& pixel : read_png(path("out/" + frame)).pixels)
+      bytes.append(pixel.begin(), pixel.begin() + 3);
+  EXPECT_EQ(result.out, bytes);
+  EXPECT_THAT(result.err, HasSubstr("rgb24, 20x15, 2 frames a second"));
+  EXPECT_EQ(render({"--out", "-"}).exit_code, 1);
+}
+
 TEST_F(RenderCommand, DrawsTheClipAndTheTimeThatAreAskedFor) {
   const auto picture = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"render",  "/usr/share/assimp/models/X/Testwuson.X",

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "core/camera_path.h"
 #include "simulator/emulated_room.h"
 #include "tests/app/process.h"
 #include "tests/wall/children.h"
@@ -89,6 +90,20 @@ TEST_F(ReplayCommand, TracksTheSamePosesAsWereTrackedLive) {
   ASSERT_GT(eyes.size(), 50u);
   ASSERT_EQ(lines.size(), eyes.size());
   for (std::size_t i = 0; i < lines.size(); ++i) ASSERT_THAT(lines[i], HasSubstr(eyes[i])) << i;
+}
+
+TEST_F(ReplayCommand, WritesTheEyeAsAPathThatAFilmFollows) {
+  record_and_track_live("a.vrec");
+  const ProcessResult result =
+      vindu({"replay", path("a.vrec"), "--track", "--path", path("walk.toml")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const CameraPath walk = read_camera_path(path("walk.toml"));
+  EXPECT_GT(walk.period_s(), 1.5);
+  double way_m = 0;
+  for (double t_s = 0.1; t_s < walk.period_s() - 1; t_s += 0.1)
+    way_m += (walk.eye_at(t_s) - walk.eye_at(t_s - 0.1)).norm();
+  EXPECT_GT(way_m, 0.1) << "the person walks";
+  EXPECT_EQ(vindu({"replay", path("a.vrec"), "--path", "/no/such/folder/a.toml"}).exit_code, 1);
 }
 
 TEST_F(ReplayCommand, IsBitEqualEachTimeAtBothSpeedsAndThroughTheTextForm) {

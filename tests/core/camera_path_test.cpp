@@ -1,6 +1,11 @@
 // The camera path of loop mode: through all keys, round and round, without a jump or a kink.
 #include "core/camera_path.h"
 
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "core/error.h"
 #include "tests/core/files.h"
 #include "tests/core/matchers.h"
 
@@ -26,6 +31,18 @@ TEST(CameraPath, PassesThroughItsKeys) {
   EXPECT_THAT(path.eye_at(1.5), IsNearPoint(Vec3(0, 0.3, 1), 1e-12));
   EXPECT_THAT(path.eye_at(2), IsNearPoint(Vec3(1, 0.1, 2), 1e-12));
   EXPECT_THAT(path.eye_at(4), IsNearPoint(Vec3(0, 0, 3), 1e-12));
+}
+
+TEST(CameraPath, IsReadAsItWasWritten) {
+  const std::string file =
+      ::testing::TempDir() + "vindu_path_" + std::to_string(getpid()) + ".toml";
+  write_camera_path({{0, {-1, 0.1, 2}}, {0.5, {0, 0.3, 1}}, {2, {1, -0.1, 2}}}, file);
+  const CameraPath path = read_camera_path(file);
+  std::remove(file.c_str());
+  EXPECT_DOUBLE_EQ(path.period_s(), 3);
+  EXPECT_THAT(path.eye_at(0.5), IsNearPoint(Vec3(0, 0.3, 1), 1e-6));
+  EXPECT_THAT(path.eye_at(2), IsNearPoint(Vec3(1, -0.1, 2), 1e-6));
+  EXPECT_THROW(write_camera_path({}, "/no/such/folder/a.toml"), Error);
 }
 
 TEST(CameraPath, RepeatsAfterItsPeriodForwardsAndBackwards) {
