@@ -123,13 +123,15 @@ struct FromWire {
     require(wire <= static_cast<std::uint8_t>(last));
     if (ok) value = static_cast<Enum>(wire);
   }
+  // What is out of range never becomes a value: fields of a refused message are computed with, too.
   void duration(std::int64_t wire, Duration& value) {
     require(in_range_ns(wire));
-    value = Duration(wire);
+    if (in_range_ns(wire)) value = Duration(wire);
   }
   void time(std::int64_t wire, Time& value) {
-    require(in_range_ns(wire));
-    value = Time(Duration(wire));
+    Duration since_zero{};
+    duration(wire, since_zero);
+    value = Time(since_zero);
   }
   void optional_time(std::int64_t wire, std::optional<Time>& value) {
     if (wire != kNoTime_ns) time(wire, value.emplace());
