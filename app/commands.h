@@ -16,6 +16,7 @@ void add_view(CLI::App& parent, Action& chosen);
 void add_render(CLI::App& parent, Action& chosen);
 void add_simulate(CLI::App& parent, Action& chosen);
 void add_check(CLI::App& parent, Action& chosen);
+void add_doctor(CLI::App& parent, Action& chosen);
 void add_wiimote(CLI::App& parent, Action& chosen);
 void add_record(CLI::App& parent, Action& chosen);
 void add_calibrate(CLI::App& parent, Action& chosen);

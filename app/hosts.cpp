@@ -29,15 +29,6 @@ struct HostsCommand {
   bool dry_run = false;
 };
 
-Site site_with_hosts(const HostsCommand& command) {
-  Site site = load_site(command.wall_file);
-  if (!has_hosts(site))
-    throw Error({"names no master in its [cluster]: the wall is on this machine alone",
-                 command.wall_file.empty() ? "the default wall file" : command.wall_file,
-                 "name the master's host there"});
-  return site;
-}
-
 /// A folder of links, laid out as the hosts are to have it; removed at the end.
 class Stage {
  public:
@@ -193,7 +184,7 @@ int print_copies(const std::vector<HostFiles>& hosts, const Stage& common) {
 }
 
 int deploy(const HostsCommand& command) {
-  const Site site = site_with_hosts(command);
+  const Site site = load_site_with_hosts(command.wall_file);
   const auto plans = choose_hosts(site, command.hosts);
   Stage stage;
   fill(stage, command, site);
@@ -215,12 +206,12 @@ int deploy(const HostsCommand& command) {
 }
 
 int restart(const HostsCommand& command) {
-  const auto hosts = choose_hosts(site_with_hosts(command), command.hosts);
+  const auto hosts = choose_hosts(load_site_with_hosts(command.wall_file), command.hosts);
   return conclude(on_hosts(names_of(hosts), restart_script()), "restarted");
 }
 
 int logs(const HostsCommand& command) {
-  const auto hosts = choose_hosts(site_with_hosts(command), command.hosts);
+  const auto hosts = choose_hosts(load_site_with_hosts(command.wall_file), command.hosts);
   const auto reports = on_hosts(names_of(hosts), log_script(command.lines));
   for (const HostReport& report : reports)
     for (const std::string& line : report.lines) fmt::print("{}: {}\n", report.host, line);

@@ -15,6 +15,9 @@ int launch_here(const LaunchRequest& request, const Site& site, int tiles_per_pr
 /// Which of the two a wall file means: it runs over hosts when it names the master's.
 inline bool has_hosts(const Site& site) { return !site.cluster.master.empty(); }
 
+/// Throws Error for a wall of one machine.
+Site load_site_with_hosts(const std::string& wall_file);
+
 struct HostOptions {
   std::string engine = "systemd";  ///< or "slurm"
   bool dry_run = false;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/common.h"
 #include "app/launch.h"
 #include "cluster/launch/node_set.h"
 #include "cluster/launch/words.h"
@@ -63,6 +64,15 @@ void print_plan(const HostRequest& request, const Site& site, const HostOptions&
 }
 
 }  // namespace
+
+Site load_site_with_hosts(const std::string& wall_file) {
+  Site site = load_site(wall_file);
+  if (!has_hosts(site))
+    throw Error({"names no master in its [cluster]: the wall is on this machine alone",
+                 wall_file.empty() ? "the default wall file" : wall_file,
+                 "name the master's host there"});
+  return site;
+}
 
 void add_engine(CLI::App& app, std::string& engine) {
   app.add_option("--engine", engine,

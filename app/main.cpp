@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   vindu::app::add_view(app, chosen);
   vindu::app::add_render(app, chosen);
   vindu::app::add_check(app, chosen);
+  vindu::app::add_doctor(app, chosen);
   vindu::app::add_wiimote(app, chosen);
   vindu::app::add_record(app, chosen);
   vindu::app::add_calibrate(app, chosen);

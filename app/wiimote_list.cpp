@@ -20,16 +20,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// One line of the list.
-struct Finding {
-  HidInfo info;
-  std::string state;  ///< "ready", or what hinders it, with the remedy
-  std::optional<StatusReport> status;
-  std::string adapter;  ///< "hci0", where BlueZ knows it
-};
-
-Finding examine(HidBus& bus, Clock& clock, const HidInfo& info) {
-  Finding finding{.info = info, .state = "ready", .status = {}, .adapter = {}};
+WiimoteFinding examine(HidBus& bus, Clock& clock, const HidInfo& info) {
+  WiimoteFinding finding{.info = info};
   const std::vector<std::string> holders = holders_of(info.path);
   if (!holders.empty()) {
     finding.state = fmt::format("in use by {}: end that first", fmt::join(holders, ", "));
@@ -44,28 +36,9 @@ Finding examine(HidBus& bus, Clock& clock, const HidInfo& info) {
                           : "does not answer: press a button on it, or take out its batteries";
   } catch (const Error& error) {
     finding.state = error.what();
+    finding.forbidden = true;
   }
   return finding;
-}
-
-/// What Bluetooth knows: adds the adapters, and the Wiimotes that are not connected.
-void add_bluetooth(const BluezView& view, std::vector<Finding>& findings) {
-  for (const BluezDevice& known : view.wiimotes) {
-    const auto found = std::ranges::find_if(findings, [&](const Finding& finding) {
-      return same_address(finding.info.address, known.address);
-    });
-    if (found != findings.end()) {
-      if (known.connected) found->adapter = known.adapter;
-      continue;
-    }
-    const char* state = !known.paired     ? "not bonded: vindu wiimote pair"
-                        : known.connected ? "connected, but no HID device: vindu wiimote pair"
-                                          : "bonded, not connected: press a button on it";
-    findings.push_back({.info = {"", 0x057e, 0x0306, known.name, known.address},
-                        .state = state,
-                        .status = {},
-                        .adapter = known.adapter});
-  }
 }
 
 std::string battery_text(const std::optional<StatusReport>& status) {
@@ -74,7 +47,7 @@ std::string battery_text(const std::optional<StatusReport>& status) {
                      status->battery_low ? ", low" : "");
 }
 
-void print_table(const std::vector<Finding>& findings) {
+void print_table(const std::vector<WiimoteFinding>& findings) {
   if (findings.empty()) {
     std::puts(
         "No Wiimote is known here. Pair one: vindu wiimote pair. Without any hardware:\n"
@@ -84,13 +57,13 @@ void print_table(const std::vector<Finding>& findings) {
   constexpr const char* kLine = "{:>2}  {:<17}  {:<13}  {:<7}  {:<14}  {:<9}  {}\n";
   fmt::print(kLine, "", "address", "kind", "adapter", "device", "battery", "state");
   int number = 0;
-  for (const Finding& finding : findings)
+  for (const WiimoteFinding& finding : findings)
     fmt::print(kLine, ++number, finding.info.address, name_of(kind_of(finding.info)),
                finding.adapter, finding.info.path, battery_text(finding.status), finding.state);
 }
 
-void print_json(const std::vector<Finding>& findings) {
-  for (const Finding& finding : findings) {
+void print_json(const std::vector<WiimoteFinding>& findings) {
+  for (const WiimoteFinding& finding : findings) {
     const std::string battery =
         finding.status ? fmt::format("{:.3f}", battery_charge(finding.status->battery)) : "null";
     fmt::print(R"({{"address":{},"kind":{},"adapter":{},"path":{},"battery":{},"state":{}}})"
@@ -103,9 +76,7 @@ void print_json(const std::vector<Finding>& findings) {
 
 int list(bool emulated, bool json) {
   WiimoteBus devices(emulated);
-  std::vector<Finding> findings;
-  for (const HidInfo& info : find_wiimotes(devices.bus()))
-    findings.push_back(examine(devices.bus(), devices.clock(), info));
+  std::vector<WiimoteFinding> findings = examine_wiimotes(devices.bus(), devices.clock());
   if (!emulated) {
     const BluezView view = bluez_wiimotes();
     add_bluetooth(view, findings);
@@ -140,6 +111,30 @@ int identify(const std::string& which, bool emulated, double seconds) {
 }
 
 }  // namespace
+
+std::vector<WiimoteFinding> examine_wiimotes(HidBus& bus, Clock& clock) {
+  std::vector<WiimoteFinding> findings;
+  for (const HidInfo& info : find_wiimotes(bus)) findings.push_back(examine(bus, clock, info));
+  return findings;
+}
+
+void add_bluetooth(const BluezView& view, std::vector<WiimoteFinding>& findings) {
+  for (const BluezDevice& known : view.wiimotes) {
+    const auto found = std::ranges::find_if(findings, [&](const WiimoteFinding& finding) {
+      return same_address(finding.info.address, known.address);
+    });
+    if (found != findings.end()) {
+      if (known.connected) found->adapter = known.adapter;
+      continue;
+    }
+    const char* state = !known.paired     ? "not bonded: vindu wiimote pair"
+                        : known.connected ? "connected, but no HID device: vindu wiimote pair"
+                                          : "bonded, not connected: press a button on it";
+    findings.push_back({.info = {"", 0x057e, 0x0306, known.name, known.address},
+                        .state = state,
+                        .adapter = known.adapter});
+  }
+}
 
 void add_wiimote_list(CLI::App& wiimote, Action& chosen) {
   struct Options {

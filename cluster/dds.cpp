@@ -1,7 +1,5 @@
 #include "cluster/dds.h"
 
-#include <ifaddrs.h>
-
 #include <array>
 #include <atomic>
 #include <bit>
@@ -10,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "cluster/interfaces.h"
 #include "cluster/internal/dds_entity.h"
 #include "cluster/internal/dds_security.h"
 #include "cluster/internal/participant_text.h"
@@ -52,13 +51,9 @@ internal::DdsQos qos_of(Topic topic) {
 }
 
 std::string interfaces() {
-  std::set<std::string> names;
-  ifaddrs* list = nullptr;
-  if (getifaddrs(&list) == 0)
-    for (const ifaddrs* each = list; each; each = each->ifa_next) names.insert(each->ifa_name);
-  freeifaddrs(list);
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  for (const NetworkInterface& each : network_interfaces())
+    text += (text.empty() ? "" : ", ") + each.name;
   return text;
 }
 

@@ -92,7 +92,10 @@ done
 for file in "$XDG_RUNTIME_DIR/gdm/Xauthority" "$HOME/.Xauthority"; do
   [ -z "$authority" ] && [ -r "$file" ] && authority=$file
 done
-[ -n "$display" ] || fail display 'nobody is logged in at its screen' \
+)sh";
+
+constexpr const char* kNeedDisplay =
+    R"sh([ -n "$display" ] || fail display 'nobody is logged in at its screen' \
   'set up auto-login there, or launch with --headless'
 environment="\"DISPLAY=$display\""
 [ -z "$authority" ] || environment="$environment \"XAUTHORITY=$authority\""
@@ -115,6 +118,13 @@ done
 [ "$found" = 1 ] || fail units 'nothing was launched there' 'vindu launch'
 echo @done
 )sh";
+
+/// The beginning of a script for a host that has what was deployed.
+std::string checked_host(const std::vector<HostPlan>& hosts, const HostRequest& request) {
+  return kBegin + own_part(hosts) + "program_sha256=" + shell_word(request.program_sha256) +
+         " wall_sha256=" + shell_word(request.wall_sha256) + " model=" + shell_word(request.model) +
+         "\n" + kCheckFiles;
+}
 
 }  // namespace
 
@@ -176,13 +186,10 @@ TimeoutStopSec=5
 }
 
 std::string start_script(const std::vector<HostPlan>& hosts, const HostRequest& request) {
-  std::string text = kBegin + own_part(hosts) +
-                     "program_sha256=" + shell_word(request.program_sha256) +
-                     " wall_sha256=" + shell_word(request.wall_sha256) +
-                     " model=" + shell_word(request.model) + "\n" + kCheckFiles;
+  std::string text = checked_host(hosts, request);
   text += "environment=\n";
   if (!request.headless)
-    text += "if [ -n \"$tiles\" ]; then\n" + std::string(kFindDisplay) + "fi\n";
+    text += "if [ -n \"$tiles\" ]; then\n" + std::string(kFindDisplay) + kNeedDisplay + "fi\n";
   text += std::string(kUnits) +
           "mkdir -p \"$units/vindu-tile.service.d\" ||\n"
           "  fail units 'cannot be written' 'free some space in its home'\n";
@@ -194,6 +201,14 @@ std::string start_script(const std::vector<HostPlan>& hosts, const HostRequest& 
       "  > \"$units/vindu-tile.service.d/host.conf\"\n";
   return text + "systemctl --user daemon-reload || fail units 'systemd does not read them' ''\n" +
          kStart;
+}
+
+std::string doctor_script(const std::vector<HostPlan>& hosts, const HostRequest& request) {
+  return checked_host(hosts, request) + kFindDisplay +
+         "[ -z \"$display\" ] || export DISPLAY=\"$display\"\n"
+         "[ -z \"$authority\" ] || export XAUTHORITY=\"$authority\"\n"
+         "\"$vindu\" doctor --wall \"$HOME/.vindu/wall.toml\" 2>&1\n"
+         "echo @done\n";
 }
 
 std::string stop_script() {

@@ -43,6 +43,9 @@ std::string master_unit(const HostRequest& request);
 /// It checks the host, writes its units, and starts them; it says how that went as on_hosts()
 /// (hosts.h) reads it.
 std::string start_script(const std::vector<HostPlan>& hosts, const HostRequest& request);
+/// vindu doctor on each host, on the display of its screen where somebody is logged in there; fails
+/// where its files are not those of the request.
+std::string doctor_script(const std::vector<HostPlan>& hosts, const HostRequest& request);
 std::string stop_script();
 /// Of what was launched on the host, whether it runs or not.
 std::string restart_script();

@@ -85,8 +85,9 @@ TEST(Units, OfTheMasterNameTheModelThatWasDeployed) {
 
 TEST(Scripts, AreGoodShell) {
   const auto plans = host_plans(site_of("tile-{x}-{y}"));
-  for (const std::string& script : {start_script(plans, request()), stop_script(), restart_script(),
-                                    log_script(5), slurm_script(plans, request())}) {
+  for (const std::string& script :
+       {start_script(plans, request()), stop_script(), restart_script(), log_script(5),
+        doctor_script(plans, request()), slurm_script(plans, request())}) {
     const ProgramResult shell = run_program({"sh", "-n", "-c", script});
     EXPECT_EQ(shell.exit_code, 0) << script;
     EXPECT_THAT(shell.err, SizeIs(0));

@@ -64,6 +64,8 @@ TEST_F(LaunchCommand, LightsAWallThatConsolesSpeakTo) {
   EXPECT_THAT(ask({"status"}).out, HasSubstr("tile-[0-1]-0  ready"));
   EXPECT_THAT(ask({"status", "--json"}).out,
               AllOf(HasSubstr("\"good\": true"), HasSubstr("\"tile\": \"tile-1-0\"")));
+  EXPECT_THAT(ask({"doctor"}).out,
+              HasSubstr("good  wall      the wall \"" + name_ + "\" runs: 2 ready"));
   EXPECT_EQ(ask({"pattern", "counter"}).exit_code, 0);
   EXPECT_THAT(ask({"pattern", "no-such"}).err, HasSubstr("no-such"));
   EXPECT_EQ(ask({"pattern", "none"}).exit_code, 0);
