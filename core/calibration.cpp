@@ -82,7 +82,8 @@ std::string read_text(const std::string& file) {
 std::string replace_file(const std::string& wall_file, const std::string& name,
                          const std::string& text) {
   const std::string folder = calibration_folder(wall_file);
-  const std::string file = folder + "/" + name + ".toml", fresh = file + ".new";
+  std::string file = folder + "/" + name + ".toml";
+  const std::string fresh = file + ".new";
   std::error_code error;
   fs::create_directories(folder, error);
   std::ofstream stream(fresh, std::ios::binary);
@@ -136,14 +137,14 @@ std::string write_calibration(const std::string& wall_file,
   return replace_file(wall_file, "cameras", text);
 }
 
-std::string write_calibration(const std::string& wall_file, const HeadCalibration& found) {
+std::string write_calibration(const std::string& wall_file, const HeadCalibration& head) {
   auto all =
       read_before(calibration_folder(wall_file) + "/heads.toml", internal::read_head_calibrations);
   std::erase_if(all,
-                [&](const HeadCalibration& head) { return head.head.name == found.head.name; });
-  all.push_back(found);
+                [&](const HeadCalibration& other) { return other.head.name == head.head.name; });
+  all.push_back(head);
   std::string text;
-  for (const HeadCalibration& head : all) text += "\n" + text_of(head);
+  for (const HeadCalibration& each : all) text += "\n" + text_of(each);
   return replace_file(wall_file, "heads", text);
 }
 

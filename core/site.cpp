@@ -188,7 +188,7 @@ FrameLock lock_from(const std::string& name) {
 
 /// A name that goes into the network's settings as it is.
 std::optional<std::string> read_word(TomlTable& table, const std::string& name) {
-  const auto word = table.text(name);
+  auto word = table.text(name);
   const auto allowed = [](unsigned char c) { return std::isalnum(c) || std::strchr("-_.:", c); };
   if (!word || (word->size() <= 255 && std::ranges::all_of(*word, allowed))) return word;
   table.fail(name, "is \"" + *word + "\"; up to 255 letters, digits and - _ . : are allowed");

@@ -18,8 +18,8 @@ std::vector<Vec2> seen_turned(const Grid& grid, double turn_rad) {
   std::vector<Vec2> dots;
   const Eigen::Rotation2Dd turn(turn_rad);
   for (const Vec3& led : grid.leds_in_rig())
-    dots.push_back(turn * Vec2(900 * led.x() + 60 * led.x() * led.y(), -900 * led.y()) +
-                   Vec2(500, 380));
+    dots.emplace_back(turn * Vec2(900 * led.x() + 60 * led.x() * led.y(), -900 * led.y()) +
+                      Vec2(500, 380));
   return dots;
 }
 
@@ -91,7 +91,7 @@ TEST(Place, IsFoundFromARigAtAKnownPlaceAlsoUpsideDown) {
     pose.rotation = pose.rotation * Quat(Eigen::AngleAxisd(roll_rad, Vec3::UnitZ()));
     const Grid grid{2, 2, 0.3, 0.3};
     const Rigid3 room_from_rig{Quat(Eigen::AngleAxisd(-0.3, Vec3::UnitY())), {-0.2, 1.6, 2}};
-    wanted.body = bare_leds(grid.leds_in_rig(), [room_from_rig](Time) { return room_from_rig; });
+    wanted.body = bare_leds(grid.leds_in_rig(), [&](Time) { return room_from_rig; });
     const PlaceResult place =
         calibrate_place(capture_of(wanted), wanted.site.cameras, 0, grid, room_from_rig);
     EXPECT_LT((place.room_from_camera.translation - pose.translation).norm(), 0.06);

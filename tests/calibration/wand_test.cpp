@@ -85,7 +85,7 @@ double bound_mm(const Site& site, const BodyMotion& motion, const std::vector<do
         if (!raw_px || raw_px->minCoeff() < 0 || raw_px->x() > 1023 || raw_px->y() > 767) continue;
         view.dots_px.push_back(image_from_raw(CameraSource::emulated, *raw_px));
         const Vec3 later = motion(Time{from_seconds(t_s + 0.01)}) * Vec3(led, 0, 0);
-        view.speed_px_s.push_back(
+        view.speed_px_s.emplace_back(
             100 * (image_from_raw(CameraSource::emulated,
                                   *model.project(model.camera_from_room() * later)) -
                    view.dots_px.back()));

@@ -123,6 +123,25 @@ class Tidy(Planted):
         self.assertEqual(len(tidy.texts_behind(self.root, Path("core/a.cpp"))), 3)
 
 
+    def test_sources_that_are_compiled_alike_in_one_folder_are_looked_at_together(self):
+        alike = "c++ -I/x -O2 -MD -MT {0}.o -MF {0}.d -o {0}.o -c {0}"
+        waiting = [(Path(name), alike.format(name)) for name in ("a/1.cpp", "a/2.cpp", "b/1.cpp")]
+        waiting.append((Path("a/3.cpp"), "c++ -DY -O2 -o 3.o -c a/3.cpp"))
+        self.assertEqual(tidy.batches_of(waiting),
+                         [([Path("a/1.cpp"), Path("a/2.cpp")], ("-I/x", "-O2")),
+                          ([Path("b/1.cpp")], ("-I/x", "-O2")),
+                          ([Path("a/3.cpp")], ("-DY", "-O2"))])
+
+    def test_a_line_of_joined_sources_is_a_line_of_one_of_them(self):
+        self.write("core/a.cpp", "#include <a>\nint a();")
+        self.write("core/c.cpp", "#include <a>\nint c();\n#include <a>\n")
+        sources = [Path("core/a.cpp"), Path("core/c.cpp")]
+        text, places = tidy.joined(self.root, sources)
+        # An include that an earlier source has is left out, one that is twice in its own is not.
+        self.assertEqual(text.splitlines(), ["#include <a>", "int a();", "", "int c();", "#include <a>"])
+        self.assertEqual(places[3], (Path("core/c.cpp"), 2))
+
+
 class Format(Planted):
     def test_a_source_that_is_not_formatted_is_found(self):
         shutil.copy(ROOT / ".clang-format", self.root)
