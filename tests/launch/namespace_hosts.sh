@@ -118,6 +118,7 @@ host() {
   mount --bind "$folder/hosts" /etc/hosts
   mount -t cgroup2 none /sys/fs/cgroup
   mount -t tmpfs none /run
+  [ ! -e /tmp/.X11-unix ] || mount -t tmpfs none /tmp/.X11-unix  # no screen of this machine's
   mount --bind "$folder/$name/root" /root
   unset XDG_CACHE_HOME
   export HOME=/root XDG_RUNTIME_DIR=/run/user/0 SYSTEMD_LOG_TARGET=console SYSTEMD_LOG_LEVEL=notice
