@@ -14,7 +14,7 @@ struct HostFailure {
   std::string reason;
   std::string remedy;
 
-  auto operator<=>(const HostFailure&) const = default;
+  auto operator<=>(const HostFailure&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct HostReport {

@@ -17,7 +17,7 @@ namespace vindu {
 /// A picture's share of dots in 8 x 6 equal cells, row by row from the upper left.
 struct Coverage {
   static constexpr int kColumns = 8, kRows = 6;
-  std::array<int, kColumns * kRows> dots{};
+  std::array<int, std::size_t{kColumns} * kRows> dots{};
 
   void add(const Vec2& image_px, double width_px, double height_px);
   /// Share of the cells that have any.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "tracker/joint/assignment.h"
 #include "tracker/joint/candidates.h"
@@ -15,13 +16,58 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 using Labels = std::vector<std::vector<int>>;
 
-class Contest {
+/// Pairs of views with dots, the widest apart first: they fix depth best.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::span<const CameraModel> cameras,
+                                                          std::span<const CameraView> views) {
+  constexpr std::size_t kPairs = 6;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < views.size(); ++a)
+    for (std::size_t b = a + 1; b < views.size(); ++b)
+      if (!views[a].dots_px.empty() && !views[b].dots_px.empty()) pairs.emplace_back(a, b);
+  const auto worth = [&](const std::pair<std::size_t, std::size_t>& pair) {
+    const CameraView &a = views[pair.first], &b = views[pair.second];
+    const auto place = [&](const CameraView& view) {
+      return cameras[static_cast<std::size_t>(view.camera)].room_from_camera().translation;
+    };
+    const auto dots = static_cast<double>(std::min(a.dots_px.size(), b.dots_px.size()));
+    return std::min(dots, 3.0) * 10 + std::min((place(a) - place(b)).norm(), 3.0);
+  };
+  std::ranges::stable_sort(pairs, std::greater{}, worth);
+  if (pairs.size() > kPairs) pairs.resize(kPairs);
+  return pairs;
+}
+
+}  // namespace
+
+class HeadSearch::Contest {
  public:
-  Contest(std::span<const CameraModel> cameras, std::span<const CameraView> views,
-          std::span<const Vec3> leds, const AcquisitionOptions& options)
-      : cameras_(cameras), views_(views), leds_(leds), options_(options) {
+  Contest(std::span<const CameraModel> cameras, std::vector<CameraView> views,
+          std::vector<Vec3> leds, const AcquisitionOptions& options)
+      : cameras_(cameras),
+        views_(std::move(views)),
+        leds_(std::move(leds)),
+        options_(options),
+        pairs_(pairs_of(cameras_, views_)) {
     const Vec3 inverse = options.facing_sigma_rad.cwiseInverse();
     prior_.information.diagonal().tail<3>() = inverse.cwiseProduct(inverse);
+  }
+
+  const std::vector<CameraView>& views() const { return views_; }
+
+  /// The next rough pose: those of pairs of cameras, then, where these find nobody, those of single
+  /// ones. Empty: there are no others.
+  std::optional<Rigid3> next() {
+    while (next_pose_ == poses_.size()) {
+      poses_.clear();
+      next_pose_ = 0;
+      if (next_pair_ < pairs_.size() && !settled())
+        poses_ = of_pair(pairs_[next_pair_++]);
+      else if (next_view_ < views_.size() && (next_view_ > 0 || !winner()))
+        poses_ = of_one(views_[next_view_++]);
+      else
+        return std::nullopt;
+    }
+    return poses_[next_pose_++];
   }
 
   /// Completes a rough pose with all dots that fit it, in rounds with a shrinking gate. Most rough
@@ -47,9 +93,6 @@ class Contest {
     if (sightings_of(labels).size() >= options_.least_dots) judge(*fit, std::move(labels));
   }
 
-  /// Whether some pose is fixed by the dots and leaves none over: further ones can only repeat it.
-  bool settled() const { return settled_cost_ < kFar; }
-
   std::optional<FoundHead> winner() {
     if (entries_.empty()) return std::nullopt;
     const auto best = std::ranges::min_element(entries_, {}, &FoundHead::cost);
@@ -67,6 +110,18 @@ class Contest {
   }
 
  private:
+  /// Whether some pose is fixed by the dots and leaves none over: further pairs can only repeat it.
+  bool settled() const { return settled_cost_ < kFar; }
+
+  std::vector<Rigid3> of_pair(const std::pair<std::size_t, std::size_t>& pair) const {
+    return candidates_from_pair(cameras_, views_[pair.first], views_[pair.second], leds_,
+                                /*least_leds=*/1, options_.candidates_kept);
+  }
+  std::vector<Rigid3> of_one(const CameraView& view) const {
+    return view.dots_px.size() < 3 ? std::vector<Rigid3>()
+                                   : candidates_from_one(cameras_, view, leds_);
+  }
+
   const CameraModel& camera(const CameraView& view) const {
     return cameras_[static_cast<std::size_t>(view.camera)];
   }
@@ -143,55 +198,48 @@ class Contest {
   }
 
   std::span<const CameraModel> cameras_;
-  std::span<const CameraView> views_;
-  std::span<const Vec3> leds_;
-  const AcquisitionOptions& options_;
+  std::vector<CameraView> views_;
+  std::vector<Vec3> leds_;
+  AcquisitionOptions options_;
   PosePrior prior_;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+  std::size_t next_pair_ = 0, next_view_ = 0;
+  std::vector<Rigid3> poses_;  // rough ones, of the pair or view before these
+  std::size_t next_pose_ = 0;
   std::array<std::vector<Labels>, kRounds> tried_;
   std::vector<FoundHead> entries_;
   double settled_cost_ = kFar;  // of the best pose that leaves no dot over
 };
 
-/// Pairs of views with dots, the widest apart first: they fix depth best.
-std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::span<const CameraModel> cameras,
-                                                          std::span<const CameraView> views) {
-  constexpr std::size_t kPairs = 6;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t a = 0; a < views.size(); ++a)
-    for (std::size_t b = a + 1; b < views.size(); ++b)
-      if (!views[a].dots_px.empty() && !views[b].dots_px.empty()) pairs.emplace_back(a, b);
-  const auto worth = [&](const std::pair<std::size_t, std::size_t>& pair) {
-    const CameraView &a = views[pair.first], &b = views[pair.second];
-    const auto place = [&](const CameraView& view) {
-      return cameras[static_cast<std::size_t>(view.camera)].room_from_camera().translation;
-    };
-    const auto dots = static_cast<double>(std::min(a.dots_px.size(), b.dots_px.size()));
-    return std::min(dots, 3.0) * 10 + std::min((place(a) - place(b)).norm(), 3.0);
-  };
-  std::ranges::stable_sort(pairs, std::greater{}, worth);
-  if (pairs.size() > kPairs) pairs.resize(kPairs);
-  return pairs;
+HeadSearch::HeadSearch(std::span<const CameraModel> cameras, std::vector<CameraView> views,
+                       std::vector<Vec3> leds_in_head, const AcquisitionOptions& options)
+    : contest_(
+          std::make_unique<Contest>(cameras, std::move(views), std::move(leds_in_head), options)) {}
+HeadSearch::~HeadSearch() = default;
+HeadSearch::HeadSearch(HeadSearch&&) noexcept = default;
+HeadSearch& HeadSearch::operator=(HeadSearch&&) noexcept = default;
+
+bool HeadSearch::advance(std::size_t most) {
+  for (; most > 0; --most) {
+    const auto rough = contest_->next();
+    if (!rough) return true;
+    contest_->enter(*rough);
+  }
+  return false;
 }
 
-}  // namespace
+std::optional<FoundHead> HeadSearch::winner() { return contest_->winner(); }
+
+const std::vector<CameraView>& HeadSearch::views() const { return contest_->views(); }
 
 std::optional<FoundHead> find_head(std::span<const CameraModel> cameras,
                                    std::span<const CameraView> views,
                                    std::span<const Vec3> leds_in_head,
                                    const AcquisitionOptions& options) {
-  Contest contest(cameras, views, leds_in_head, options);
-  for (const auto& [a, b] : pairs_of(cameras, views)) {
-    for (const Rigid3& pose : candidates_from_pair(cameras, views[a], views[b], leds_in_head,
-                                                   /*least_leds=*/1, options.candidates_kept))
-      contest.enter(pose);
-    if (contest.settled()) break;
-  }
-  if (const auto found = contest.winner()) return found;
-  for (const CameraView& view : views)
-    if (view.dots_px.size() >= 3)
-      for (const Rigid3& pose : candidates_from_one(cameras, view, leds_in_head))
-        contest.enter(pose);
-  return contest.winner();
+  HeadSearch search(cameras, {views.begin(), views.end()},
+                    {leds_in_head.begin(), leds_in_head.end()}, options);
+  search.advance(std::numeric_limits<std::size_t>::max());
+  return search.winner();
 }
 
 }  // namespace vindu

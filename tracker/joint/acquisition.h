@@ -4,6 +4,7 @@
 // upright and, by and large, face the wall.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,7 +39,30 @@ struct FoundHead {
   double margin = 0;                         ///< over the best rival; infinite without one
 };
 
-/// Empty when there is no candidate, or two are too close to choose.
+/// A look for a head that may be spread over time: rough poses are considered one after the other.
+class HeadSearch {
+ public:
+  /// The cameras must outlive it.
+  HeadSearch(std::span<const CameraModel> cameras, std::vector<CameraView> views,
+             std::vector<Vec3> leds_in_head, const AcquisitionOptions& options = {});
+  ~HeadSearch();
+  HeadSearch(HeadSearch&&) noexcept;
+  HeadSearch& operator=(HeadSearch&&) noexcept;
+
+  /// Considers so many more of them. True when there are no others.
+  bool advance(std::size_t most);
+
+  /// In the end. Empty when there is no candidate, or two are too close to choose.
+  std::optional<FoundHead> winner();
+
+  const std::vector<CameraView>& views() const;
+
+ private:
+  class Contest;
+  std::unique_ptr<Contest> contest_;
+};
+
+/// The whole of it at once.
 std::optional<FoundHead> find_head(std::span<const CameraModel> cameras,
                                    std::span<const CameraView> views,
                                    std::span<const Vec3> leds_in_head,

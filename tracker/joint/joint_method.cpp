@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 
@@ -235,39 +237,70 @@ bool JointMethod::doubtful(std::size_t head) const {
   return false;
 }
 
-// Looks in a row that find a head in one place are right: false dots do not repeat themselves. One
-// that is tracked is looked for as well.
+// One that is tracked is looked for as well; where nothing speaks against it, a few rough poses a
+// frame, so that no frame pays for the whole look.
 void JointMethod::look_for(std::size_t head, Time now) {
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max(), kFew = 3;
   if (entries_.empty()) return;
   Search& search = searches_[head];
-  const bool tracked_now = newest_heads()[head].state.has_value();
-  if (now - search.looked < (!tracked_now ? kLook : doubtful(head) ? kDoubt : kCheck)) return;
+  const bool lost = !newest_heads()[head].state;
+  const Duration pause = lost ? kLook : doubtful(head) ? kDoubt : kCheck;
+  if (now - search.looked < pause) return;
   search.looked = now;
+  search.look.reset();
   const Time common = common_time();
   const auto entries = together(common);
   if (entries.empty()) return;
   const std::size_t newest = *std::ranges::max_element(entries);
-  if (entries_[newest].seen.captured <= search.seen) return;  // the same reports prove nothing new
-  search.seen = entries_[newest].seen.captured;
+  const TimedDots& seen = entries_[newest].seen;
+  if (seen.captured <= search.seen) return;  // the same reports prove nothing new
+  search.seen = seen.captured;
   std::vector<CameraView> views;
   for (const std::size_t i : entries)
     views.push_back(
         view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common)));
-  const auto found = find_head(cameras_, views, leds_of_heads_[head], acquisition_options());
-  if (!found) return search.rumour.reset();
-  judge_cameras(views, *found);
-  const auto& tracked = entries_[newest].after[head].state;
+  search.look =
+      Look{HeadSearch(cameras_, std::move(views), leds_of_heads_[head], acquisition_options()),
+           seen.camera, seen.captured, pause == kCheck ? kFew : kAll};
+}
+
+void JointMethod::go_on(std::size_t head) {
+  std::optional<Look>& look = searches_[head].look;
+  if (!look || !look->search.advance(look->step)) return;
+  conclude(head);
+  look.reset();
+}
+
+/// Empty: it has become too old.
+std::optional<std::size_t> JointMethod::entry_of(const Look& look) const {
+  for (std::size_t i = entries_.size(); i-- > 0;)
+    if (entries_[i].seen.captured == look.captured && entries_[i].seen.camera == look.camera)
+      return i;
+  return std::nullopt;
+}
+
+// Looks in a row that find a head in one place are right: false dots do not repeat themselves.
+void JointMethod::conclude(std::size_t head) {
+  Search& search = searches_[head];
+  const auto found = search.look->search.winner();
+  const auto newest = entry_of(*search.look);
+  if (!found || !newest) return search.rumour.reset();
+  judge_cameras(search.look->search.views(), *found);
+  const auto& tracked = entries_[*newest].after[head].state;
   const Rigid3& pose = found->fit.room_from_head;
   if (tracked && same_pose(pose, tracked->room_from_head)) return search.rumour.reset();
   const bool again = search.rumour && same_pose(pose, *search.rumour);
   search.rumour = pose;
   search.confirmed = again ? search.confirmed + 1 : 1;
-  if (search.confirmed >= looks_needed(*found)) bear(head, *found, newest);
+  if (search.confirmed >= looks_needed(*found)) bear(head, *found, *newest);
 }
 
 void JointMethod::update(Time now) {
   replay();
-  for (std::size_t head = 0; head < searches_.size(); ++head) look_for(head, now);
+  for (std::size_t head = 0; head < searches_.size(); ++head) {
+    look_for(head, now);
+    go_on(head);
+  }
   replay();
   for (std::size_t head = 0; head < searches_.size(); ++head)
     if (const HeadTrack& track = newest_heads()[head]; track.state) searches_[head].last = track;

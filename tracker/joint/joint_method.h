@@ -42,6 +42,9 @@ class JointMethod {
   JointMethod(std::span<const CameraConfig> cameras, std::span<const HeadConfig> heads,
               const JointOptions& options = {});
 
+  JointMethod(JointMethod&&) = default;
+  JointMethod& operator=(JointMethod&&) = default;
+
   /// Arrivals of one camera must not go back. Cheap: the work is done when somebody asks.
   void absorb(const Observation& observation);
 
@@ -72,11 +75,22 @@ class JointMethod {
     CameraWatch watch{};
   };
 
+  /// A search, and the newest report of those that it rests on.
+  struct Look {
+    HeadSearch search;
+    int camera = 0;
+    Time captured{};
+    std::size_t step = 0;  ///< rough poses a frame
+  };
+
   void insert(Entry entry);
   void replay();
   void judge(Entry& entry);
   void forget_old();
   void look_for(std::size_t head, Time now);
+  void go_on(std::size_t head);
+  void conclude(std::size_t head);
+  std::optional<std::size_t> entry_of(const Look& look) const;
   Time common_time() const;
   std::vector<std::size_t> together(Time common) const;
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart) const;
@@ -96,7 +110,8 @@ class JointMethod {
   std::size_t replay_from_ = 0;
   std::vector<HeadTrack> base_;  // before the first entry
   struct Search {
-    Time looked{};
+    std::optional<Look> look{};      // that has begun
+    Time looked{};                   // when the last one began
     Time seen = Time::min();         // capture of the newest report of that look
     std::optional<Rigid3> rumour{};  // where the last look found it, unless it is tracked there
     int confirmed = 0;               // looks in a row that found it there
