@@ -1,4 +1,5 @@
-// A master in this process and 28 tiles in 28 others, on loopback.
+// A master in this process and 28 tiles in 28 others, on loopback. Under the thread sanitizer 7: so
+// many of its processes would hear each other too slowly ever to have found all.
 #include <gmock/gmock.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -18,6 +19,13 @@ namespace {
 
 using testing::await_change;
 using testing::in_ms;
+
+#ifdef __SANITIZE_THREAD__
+constexpr int kRows = 1;
+#else
+constexpr int kRows = 4;
+#endif
+constexpr std::size_t kPeers = 7 * kRows;
 
 /// A bus_peer that ends with its scope.
 class Peer {
@@ -50,7 +58,7 @@ class Peer {
 class Processes : public ::testing::Test {
  protected:
   Processes() {
-    for (int row = 0; row < 4; ++row)
+    for (int row = 0; row < kRows; ++row)
       for (int column = 0; column < 7; ++column) peers_.emplace_back(tile_name(column, row), wall_);
     std::set<std::string> missing = names();
     while (!missing.empty()) {
@@ -58,7 +66,7 @@ class Processes : public ::testing::Test {
       for (const Presence& presence : master_->take<Presence>())
         if (presence.change == PresenceChange::alive) missing.erase(presence.who.name);
     }
-    EXPECT_EQ(ready_tiles(28), names());
+    EXPECT_EQ(ready_tiles(kPeers), names());
   }
 
   std::set<std::string> names() const {
@@ -90,7 +98,7 @@ class Processes : public ::testing::Test {
 };
 
 TEST_F(Processes, OneThatIsKilledIsNamedAndTheOthersGoOn) {
-  Peer& victim = peers_[17];
+  Peer& victim = peers_[kPeers / 2];
 
   victim.end();
 
@@ -98,7 +106,7 @@ TEST_F(Processes, OneThatIsKilledIsNamedAndTheOthersGoOn) {
   await_change(*master_, PresenceChange::left, victim.tile());
   std::set<std::string> others = names();
   others.erase(victim.tile());
-  EXPECT_EQ(ready_tiles(27), others);
+  EXPECT_EQ(ready_tiles(kPeers - 1), others);
 }
 
 TEST_F(Processes, OneThatIsStoppedHoldsNobodyUpAndComesBackByItself) {
@@ -110,12 +118,12 @@ TEST_F(Processes, OneThatIsStoppedHoldsNobodyUpAndComesBackByItself) {
   others.erase(victim.tile());
   for (std::uint64_t frame = 1; frame <= 500; ++frame) {
     master_->publish(SceneMessage{.revision = frame, .path = std::string(1000, 'x')});
-    ASSERT_EQ(ready_tiles(27), others);
+    ASSERT_EQ(ready_tiles(kPeers - 1), others);
   }
   victim.send(SIGCONT);
 
   await_change(*master_, PresenceChange::alive, victim.tile());
-  EXPECT_EQ(ready_tiles(28), names());
+  EXPECT_EQ(ready_tiles(kPeers), names());
 }
 
 TEST_F(Processes, OneThatIsStartedAgainIsBack) {
@@ -127,7 +135,7 @@ TEST_F(Processes, OneThatIsStartedAgainIsBack) {
   peers_.emplace_back(tile, wall_);
 
   await_change(*master_, PresenceChange::alive, tile);
-  EXPECT_EQ(ready_tiles(28).count(tile), 1u);
+  EXPECT_EQ(ready_tiles(kPeers).count(tile), 1u);
 }
 
 }  // namespace
