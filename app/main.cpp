@@ -25,22 +25,7 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
 }
 
-int run(int argc, char** argv) {
-  CLI::App app(
-      "Vindu turns a tiled display wall into a window: it shows a 3D model in the perspective of "
-      "the\n"
-      "person before it, whose head it tracks with infrared cameras.",
-      "vindu");
-  app.footer(
-      "\nWithout a sub-command: vindu simulate, the whole wall on this machine alone.\n"
-      "vindu COMMAND --help explains a command and gives examples.");
-  app.set_version_flag("--version", VINDU_VERSION);
-  bool quiet = false, verbose = false;
-  app.add_flag("--quiet", quiet, "Say only what went wrong");
-  app.add_flag("--verbose", verbose, "Say more");
-  app.require_subcommand(0, 1);
-  app.fallthrough();
-  vindu::app::Action chosen;
+void add_commands(CLI::App& app, vindu::app::Action& chosen) {
   vindu::app::add_simulate(app, chosen);
   vindu::app::add_master(app, chosen);
   vindu::app::add_tile(app, chosen);
@@ -72,6 +57,25 @@ int run(int argc, char** argv) {
   vindu::app::add_logs(app, chosen);
   vindu::app::add_deploy(app, chosen);
   vindu::app::add_keys(app, chosen);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Vindu turns a tiled display wall into a window: it shows a 3D model in the perspective of "
+      "the\n"
+      "person before it, whose head it tracks with infrared cameras.",
+      "vindu");
+  app.footer(
+      "\nWithout a sub-command: vindu simulate, the whole wall on this machine alone.\n"
+      "vindu COMMAND --help explains a command and gives examples.");
+  app.set_version_flag("--version", VINDU_VERSION);
+  bool quiet = false, verbose = false;
+  app.add_flag("--quiet", quiet, "Say only what went wrong");
+  app.add_flag("--verbose", verbose, "Say more");
+  app.require_subcommand(0, 1);
+  app.fallthrough();
+  vindu::app::Action chosen;
+  add_commands(app, chosen);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

@@ -138,7 +138,8 @@ class Tidy(Planted):
         sources = [Path("core/a.cpp"), Path("core/c.cpp")]
         text, places = tidy.joined(self.root, sources)
         # An include that an earlier source has is left out, one that is twice in its own is not.
-        self.assertEqual(text.splitlines(), ["#include <a>", "int a();", "", "int c();", "#include <a>"])
+        self.assertEqual(text.splitlines(),
+                         ["#include <a>", "int a();", "", "int c();", "#include <a>"])
         self.assertEqual(places[3], (Path("core/c.cpp"), 2))
 
 
