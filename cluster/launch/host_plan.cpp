@@ -208,6 +208,8 @@ std::string doctor_script(const std::vector<HostPlan>& hosts, const HostRequest&
          "[ -z \"$display\" ] || export DISPLAY=\"$display\"\n"
          "[ -z \"$authority\" ] || export XAUTHORITY=\"$authority\"\n"
          "\"$vindu\" doctor --wall \"$HOME/.vindu/wall.toml\" 2>&1\n"
+         "code=$?\n"
+         "[ $code -le 1 ] || fail doctor \"it ended with $code\" 'run it there: vindu doctor'\n"
          "echo @done\n";
 }
 

@@ -94,6 +94,33 @@ TEST(Scripts, AreGoodShell) {
   }
 }
 
+/// What the doctor's script prints on a host whose vindu ends so.
+std::vector<std::string> doctor_that_ends_with(int code) {
+  const std::string stand_ins = R"(home=$(mktemp -d); mkdir -p "$home/.vindu/bin"
+stand_in() { printf '#!/bin/sh\n%s\n' "$2" > "$home/$1"; chmod +x "$home/$1"; }
+stand_in uname 'echo tile-1-0'
+stand_in systemctl 'echo DISPLAY=:7'
+stand_in sha256sum 'cat > /dev/null'
+stand_in .vindu/bin/vindu '[ "$1" = --version ] || { echo "on $DISPLAY"; exit )" +
+                                std::to_string(code) + R"(; }'
+export HOME="$home" PATH="$home:$PATH"
+)";
+  HostRequest checked = request();
+  checked.model.clear();
+  const auto plans = host_plans(site_of("tile-{x}-{y}"));
+  return run_program({"sh", "-c", stand_ins + doctor_script(plans, checked)}).out;
+}
+
+TEST(Doctor, RunsOnTheScreenOfTheHostAndMayFindWhatIsBad) {
+  EXPECT_THAT(doctor_that_ends_with(0), ::testing::ElementsAre("on :7", "@done"));
+  EXPECT_THAT(doctor_that_ends_with(1), ::testing::ElementsAre("on :7", "@done"));
+}
+
+TEST(Doctor, ThatCrashesIsNotTakenForOneThatFoundNothing) {
+  EXPECT_THAT(doctor_that_ends_with(139),
+              ::testing::ElementsAre("on :7", HasSubstr("@fail\tdoctor\tit ended with 139")));
+}
+
 TEST(Slurm, RunsOnEachHostWhatIsItsOwnWithTheArgumentsAsTheyAre) {
   HostRequest nasty = request();
   nasty.headless = true;
