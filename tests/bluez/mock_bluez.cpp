@@ -2,6 +2,8 @@
 
 #include <sdbus-c++/sdbus-c++.h>
 #include <spawn.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -109,6 +111,17 @@ void add(sdbus::IConnection& connection, const std::string& adapter, const std::
   set_property(connection, path, kDevice, "Name", sdbus::Variant(name));
 }
 
+/// A socket's file is there before anybody listens.
+bool listens_at(const fs::path& socket_file) {
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  socket_file.string().copy(address.sun_path, sizeof(address.sun_path) - 1);
+  const int socket_id = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const bool connected =
+      connect(socket_id, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  close(socket_id);
+  return connected;
+}
+
 bool searching(sdbus::IConnection& connection, const std::string& adapter) {
   return sdbus::createProxy(connection, "org.bluez", path_of(adapter))
       ->getProperty("Discovering")
@@ -126,7 +139,7 @@ PrivateBus::PrivateBus(const std::string& forbidden) {
   std::ofstream(folder_ / "bus.conf") << configuration(socket, forbidden);
   daemon_ = start({"dbus-daemon", "--nofork", "--config-file=" + (folder_ / "bus.conf").string()});
   address_ = "unix:path=" + socket.string();
-  wait_until("the bus", [&] { return fs::exists(socket); });
+  wait_until("the bus", [&] { return listens_at(socket); });
   setenv("DBUS_SYSTEM_BUS_ADDRESS", address_.c_str(), 1);
 }
 
