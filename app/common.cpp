@@ -36,18 +36,18 @@ Navigation place_show(const Wall& wall) {
   return navigation;
 }
 
-LoadedScene place(Scene scene, Placement placement, const Wall& wall) {
-  PlacedScene placed = place_scene(scene, placement, wall);
-  if (!placed.remark.empty()) log_info(scene.name, placed.remark);
-  return {std::move(scene), placed.navigation, 0};
+LoadedScene place(PackedScene packed, Placement placement, const Wall& wall) {
+  PlacedScene placed = place_scene(packed, placement, wall);
+  if (!placed.remark.empty()) log_info(packed.scene.name, placed.remark);
+  return {std::move(packed), placed.navigation, 0};
 }
 
-LoadedScene place_as_wished(Scene scene, const std::string& model,
+LoadedScene place_as_wished(PackedScene packed, const std::string& model,
                             std::optional<Placement> placement, const Site& site) {
   const bool show = model.empty() && site.scene.model.empty();
-  if (show && !placement) return {std::move(scene), place_show(site.wall), 0};
+  if (show && !placement) return {std::move(packed), place_show(site.wall), 0};
   const Placement wanted = model.empty() ? site.scene.place : Placement::fit;
-  return place(std::move(scene), placement.value_or(wanted), site.wall);
+  return place(std::move(packed), placement.value_or(wanted), site.wall);
 }
 
 }  // namespace
@@ -154,6 +154,16 @@ void make_folder(const std::string& folder) {
     throw Error({"cannot be made: " + error.message(), folder, "choose another --out"});
 }
 
+TemporaryFolder::TemporaryFolder() {
+  path_ = (std::filesystem::temp_directory_path() / "vindu_XXXXXX").string();
+  if (!mkdtemp(path_.data())) throw Error({"cannot be made", path_, "free some space"});
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
 Look live_look() {
   return draws_in_software() ? Look{.samples = 1, .shadows = Shadows::crisp, .anisotropy = 1}
                              : Look{};
@@ -169,20 +179,21 @@ std::string model_file(const std::string& path) {
   return path.starts_with(kAsset) ? find_asset(path.substr(kAsset.size())) : path;
 }
 
-Scene read_model(const std::string& file) {
-  ImportResult imported = packed_scene(file).imported;
-  for (const std::string& warning : imported.warnings) log_warning(imported.scene.name, warning);
-  log_debug(imported.scene.name, std::to_string(imported.scene.triangle_count()) + " triangles");
-  return std::move(imported.scene);
+PackedScene read_model(const std::string& file) {
+  PackedScene packed = packed_scene(file);
+  const SceneOutline& scene = packed.scene;
+  for (const std::string& warning : packed.warnings) log_warning(scene.name, warning);
+  log_debug(scene.name, std::to_string(scene.triangle_count()) + " triangles");
+  return packed;
 }
 
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
                        const Site& site, const std::string& clip) {
   const std::string wanted = model.empty() ? site.scene.model : model;
   const std::string file = wanted.empty() ? find_asset("show/show.glb") : wanted;
-  Scene scene = read_model(file);
-  const int chosen = find_clip(clip_names(scene), clip, file);
-  LoadedScene loaded = place_as_wished(std::move(scene), model, placement, site);
+  PackedScene packed = read_model(file);
+  const int chosen = find_clip(clip_names(packed.scene), clip, file);
+  LoadedScene loaded = place_as_wished(std::move(packed), model, placement, site);
   loaded.clip = chosen;
   return loaded;
 }

@@ -53,6 +53,21 @@ std::string json_text(const std::string& text);
 /// Makes the folder, with its parents. Throws Error when that fails.
 void make_folder(const std::string& folder);
 
+/// A folder of this process alone, removed with all that is in it. Throws Error when it cannot be
+/// made.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
 /// How frames are drawn while they run: a CPU that draws does not smooth edges, which costs it more
 /// than twice the time. Needs a current context.
 Look live_look();
@@ -62,7 +77,7 @@ Look live_look();
 TileCorners content_corners(const Tile& tile, const Window& window);
 
 struct LoadedScene {
-  Scene scene;
+  PackedScene packed;
   Navigation navigation;
   int clip = 0;
 };
@@ -71,7 +86,7 @@ struct LoadedScene {
 std::string model_file(const std::string& path);
 
 /// A model, packed; warnings are logged.
-Scene read_model(const std::string& file);
+PackedScene read_model(const std::string& file);
 
 /// Reads a model and places it before the wall; warnings and the placement are logged. An empty
 /// name is the wall file's scene or, where it names none, the show. `clip`: see find_clip(). Throws

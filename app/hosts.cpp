@@ -32,18 +32,6 @@ struct HostsCommand {
 /// A folder of links, laid out as the hosts are to have it; removed at the end.
 class Stage {
  public:
-  Stage() {
-    std::string pattern = (fs::temp_directory_path() / "vindu_deploy_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw Error({"cannot be made", pattern, "free some space"});
-    folder_ = pattern;
-  }
-  ~Stage() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Stage(const Stage&) = delete;
-  Stage& operator=(const Stage&) = delete;
-
   void add(const fs::path& from, const fs::path& to) {
     if (!fs::exists(from)) throw Error({"is not there", from.string(), "name what is"});
     fs::create_directories((folder_ / to).parent_path());
@@ -67,10 +55,11 @@ class Stage {
     throw Error({"would come along to every host, with the wall's private keys", secret.string(),
                  "put the model into a folder of its own"});
   }
-  std::string folder() const { return folder_.string(); }
+  const std::string& folder() const { return temporary_.path(); }
 
  private:
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 /// These hold their textures; of others the folder comes along.

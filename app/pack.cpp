@@ -65,16 +65,16 @@ std::string pack_one(const PackCommand& command, const std::string& model) {
 
 void say(const std::string& model, const std::string& file, Duration took) {
   const PackedScene packed = read_scene_file(file);
-  const Scene& scene = packed.imported.scene;
+  const SceneOutline& scene = packed.scene;
   fmt::print("{}: {} triangles, {} textures, {} animations; {:.1f} MiB in {:.2f} s: {}\n", model,
-             scene.triangle_count(), scene.textures.size(), scene.animations.size(),
+             scene.triangle_count(), packed.textures.size(), scene.animations.size(),
              static_cast<double>(std::filesystem::file_size(file)) / 1048576, seconds(took), file);
   std::vector<std::string> clips = clip_names(scene);
   for (std::size_t i = 0; i < clips.size(); ++i)
     clips[i] = (clips[i].empty() ? "(no name)" : clips[i]) +
                fmt::format(" ({:.2f} s)", scene.animations[i].duration_s);
   if (!clips.empty()) fmt::print("  clips: {}\n", listed(clips));
-  for (const std::string& warning : packed.imported.warnings) fmt::print("  {}\n", warning);
+  for (const std::string& warning : packed.warnings) fmt::print("  {}\n", warning);
 }
 
 int pack(const PackCommand& command) {

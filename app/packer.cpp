@@ -12,6 +12,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <utility>
 
 #include "core/clock.h"
@@ -122,13 +123,18 @@ PackLimits limits_for(const std::string& model) {
   return limits;
 }
 
-PackedScene import_packed(const std::string& model) {
-  PackedScene packed{.imported = import_scene(model), .sources = {}};
-  cut_into_chunks(packed.imported.scene);
-  make_levels(packed.imported.scene);
-  for (const std::string& file : packed.imported.files)
+PackedScene import_packed(const std::string& model) try {
+  ImportResult imported = import_scene(model);
+  cut_into_chunks(imported.scene);
+  make_levels(imported.scene);
+  PackedScene packed = pack(std::move(imported.scene));
+  packed.warnings = std::move(imported.warnings);
+  for (const std::string& file : imported.files)
     if (auto source = source_of(file)) packed.sources.push_back(std::move(*source));
   return packed;
+} catch (const std::bad_alloc&) {
+  throw Error({"takes more memory than there is, or than it was given", model,
+               "reduce it, or give more: vindu pack MODEL --memory-mib N"});
 }
 
 void pack_apart(const std::string& model, const std::string& file, const PackLimits& limits) {
@@ -158,7 +164,7 @@ PackedScene packed_scene(const std::string& model) {
           log_info(fs::path(model).filename().string(), "is packed, once");
           pack_apart(model, file, limits_for(model));
         });
-    packed.imported.scene.name = fs::path(model).stem().string();  // a copy has its own name
+    packed.scene.name = fs::path(model).stem().string();  // a copy has its own name
     return packed;
   } catch (const fs::filesystem_error& error) {
     log_warning(fs::path(model).filename().string(),

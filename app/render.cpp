@@ -84,7 +84,7 @@ int render(const RenderOptions& options) {
   log_debug("render", gl_description());
   WallRenderer wall(site.wall, options.scale, Look{options.unlit ? Style::unlit : Style::lit});
   if (loaded) {
-    wall.show(loaded->scene);
+    wall.show(loaded->packed);
     state.navigation = loaded->navigation;
     state.clip = loaded->clip;
   }

@@ -88,7 +88,7 @@ EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& cl
 double frame_s(const Run& run, double scale) {
   constexpr int kWarmUp = 3, kFrames = 9;
   WallRenderer trial(run.site.wall, scale, live_look());
-  trial.show(run.loaded.scene);
+  trial.show(run.loaded.packed);
   const MonotonicClock clock;
   FrameState state{.eye_in_wall = run.site.viewer.default_eye_in_wall,
                    .navigation = run.loaded.navigation,
@@ -161,7 +161,7 @@ Run assemble(const SimulateOptions& options) {
   const double budget_s = windowed ? 0.014 : 0.028;  // 30 a second; in a window half for the room
   const double scale = options.scale ? *options.scale : manual ? 0.1 : fluid_scale(run, budget_s);
   run.wall = std::make_unique<WallRenderer>(run.site.wall, scale, live_look());
-  run.wall->show(run.loaded.scene);
+  run.wall->show(run.loaded.packed);
   run.room =
       std::make_unique<EmulatedRoom>(run.site, *run.clock, room_options(options, *run.clock));
   run.eyes = make_eyes(run);
@@ -303,7 +303,7 @@ void save_sheet(Run& run, const LoopResult& result) {
   const auto moments = choose_moments(result.frames);
   if (moments.empty()) return;
   WallRenderer wall(run.site.wall, kSheetScale, Look{});
-  wall.show(run.loaded.scene);
+  wall.show(run.loaded.packed);
   RoomView room(run.site, kRoomPicture, Look{});
   std::vector<Moment> pictures;
   for (const auto& [title, frame] : moments)

@@ -29,10 +29,10 @@ void Staging::start(const Wish& wish, const Site& site) {
     const std::string file = model_file(path_for_tiles(wish.model, site));
     const LoadedScene loaded = load_scene(wish.model, wish.place, site, wish.clip);
     return Staged{{.navigation = loaded.navigation,
-                   .box_in_scene = bounds_in_scene(loaded.scene),
-                   .clips = clip_names(loaded.scene),
+                   .box_in_scene = loaded.packed.bounds_in_scene,
+                   .clips = clip_names(loaded.packed.scene),
                    .clip = loaded.clip,
-                   .model = loaded.scene.name},
+                   .model = loaded.packed.scene.name},
                   sha256_of_file(file).value_or("")};
   });
 }

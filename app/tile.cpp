@@ -79,11 +79,11 @@ class Loading {
   bool running() const { return result_.valid(); }
   std::uint64_t revision() const { return revision_; }
   /// Throws what loading threw.
-  Scene take() { return result_.get(); }
+  PackedScene take() { return result_.get(); }
 
  private:
   std::uint64_t revision_ = 0;
-  std::future<Scene> result_;
+  std::future<PackedScene> result_;
 };
 
 /// On CPUs without shadows: each process would draw the whole scene anew for its own map.

@@ -103,7 +103,7 @@ Shown load_shown(const std::string& model, const ViewOptions& options, const Sit
       load_scene(model, options.place, place_before, model == options.model ? options.clip : "");
   const bool own_place = options.place == Placement::as_is;
   if (!own_place) loaded.navigation.wall_from_scene.translation += content.centre_in_wall();
-  return {GpuScene(loaded.scene, live_look()), loaded.navigation, loaded.clip};
+  return {GpuScene(loaded.packed, live_look()), loaded.navigation, loaded.clip};
 }
 
 class Viewer {

@@ -1,7 +1,7 @@
 // What a frame of a large scan costs: the generated scan of bench/detail/scan.h with 10 thousand to
 // 10 million triangles, with levels of detail and without them, how far the two pictures differ,
-// and, where it is asked for, osgviewer on the same model from the same place in the same run. The
-// pictures that were timed are kept.
+// and, where they are asked for, osgviewer and ParaView on the same model from the same place in
+// the same run. The pictures that were timed are kept.
 #include <fmt/format.h>
 #include <stdlib.h>
 
@@ -9,11 +9,12 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
-#include "bench/detail/osgviewer.h"
-#include "bench/detail/plot.h"
+#include "bench/detail/others.h"
 #include "bench/detail/scan.h"
+#include "bench/log_plot.h"
 #include "bench/quantile.h"
 #include "core/error.h"
 #include "renderer/chunks.h"
@@ -30,7 +31,7 @@ struct Options {
   std::vector<int> size_px = {1024, 768};
   int frames = 40;
   float noise = ScanOptions{}.noise_of_spacing;
-  bool osgviewer = false, unlit = false, shadows = false;
+  bool osgviewer = false, pvbatch = false, unlit = false, shadows = false;
   std::string out = "out";
   std::string plot;
 };
@@ -76,7 +77,7 @@ Drawn draw(const Scene& scene, const Box3f& bounds, const Options& options, bool
   const Look look{options.unlit ? Style::unlit : Style::lit, 1,
                   options.shadows ? Shadows::crisp : Shadows::none};
   const Stage stage = stage_for(bounds, size);
-  GpuScene gpu_scene(scene, look);
+  GpuScene gpu_scene(pack(scene), look);
   gpu_scene.pose(world_from_scan(bounds), 0);
   const SceneRenderer renderer(look);
   Canvas canvas(size, look);
@@ -128,21 +129,52 @@ struct Row {
   double triangles = 0;
   Drawn full, levels;
   double levels_s = 0;  // to make them
-  std::optional<double> osgviewer_s;
+  std::optional<ViewerTimes> osgviewer, pvbatch;
+  double first_picture_s = 0;  // of the program, by the packed model; 0: not measured
 };
+
+/// `vindu render` of one screen of that size, from its start to its end: the way of who wants a
+/// picture of a model that was packed before. With soft shadows and four samples a pixel, as it
+/// draws pictures.
+double first_picture_s(const std::string& model, const Options& options) {
+  const std::string wall = options.out + "/screen.toml", packed = options.out + "/scan.vscene";
+  std::ofstream(wall) << fmt::format(
+      "[wall]\ncolumns = 1\nrows = 1\nwidth_m = 2.0\nheight_m = 1.5\ntile_width_px = {}\n"
+      "tile_height_px = {}\nhosts = \"screen\"\n",
+      options.size_px[0], options.size_px[1]);
+  const auto run = [](const std::string& words) {
+    if (std::system(("'" VINDU_PROGRAM "' " + words + " > /dev/null 2>&1").c_str()) != 0)
+      throw Error({"fails", "vindu " + words, ""});
+  };
+  run(fmt::format("pack '{}' --out '{}'", model, packed));
+  const double start_s = now_s();
+  run(fmt::format("render '{}' --wall '{}' --tile tile-0-0 --out '{}'", packed, wall, options.out));
+  const double took_s = now_s() - start_s;
+  std::filesystem::remove(packed);
+  return took_s;
+}
+
+void measure_others(const Scene& scene, const Options& options, Row& row) {
+  const std::string file = options.out + "/scan.ply";
+  write_ply(scene, file);
+  const SizePx size{options.size_px[0], options.size_px[1]};
+  const int frames = row.triangles > 300000 ? 30 : 300;
+  const double half_diagonal = 0.5 * scene.meshes.front().bounds_in_node.diagonal().norm();
+  if (options.osgviewer) row.osgviewer = osgviewer_times(file, size, frames);
+  if (options.pvbatch)
+    row.pvbatch =
+        pvbatch_times(file, half_diagonal, size, options.frames,
+                      fmt::format("{}/scan_{:.0f}_pvbatch.png", options.out, row.triangles));
+  row.first_picture_s = first_picture_s(file, options);
+  std::filesystem::remove(file);
+}
 
 Row measure(const Options& options, int triangles) {
   Scene scene = scan_scene({triangles, options.noise});
   Row row;
   row.triangles = static_cast<double>(scene.triangle_count());
   const Box3f bounds = scene.meshes.front().bounds_in_node;
-  if (options.osgviewer) {
-    const std::string file = options.out + "/scan.ply";
-    write_ply(scene, file);
-    const SizePx size{options.size_px[0], options.size_px[1]};
-    row.osgviewer_s = osgviewer_frame_s(file, size, triangles > 300000 ? 30 : 300);
-    std::filesystem::remove(file);
-  }
+  if (options.osgviewer || options.pvbatch) measure_others(scene, options, row);
   cut_into_chunks(scene);
   row.full = draw(scene, bounds, options, false);
   const double start_s = now_s();
@@ -161,9 +193,11 @@ void print(const Row& row, const Row& first) {
              row.triangles, 1e3 * row.full.frame_s, 1e3 * row.levels.frame_s, row.levels.triangles,
              row.full.frame_s / row.levels.frame_s, row.levels.frame_s / first.levels.frame_s, mean,
              largest, row.levels_s);
-  if (row.osgviewer_s)
-    fmt::print(" |{:>9.1f}{:>8.1f}x", 1e3 * *row.osgviewer_s,
-               *row.osgviewer_s / row.levels.frame_s);
+  for (const auto& other : {row.osgviewer, row.pvbatch})
+    if (other)
+      fmt::print(" |{:>9.1f}{:>8.1f}x{:>7.1f}x", 1e3 * other->frame_s,
+                 other->frame_s / row.levels.frame_s, other->first_picture_s / row.first_picture_s);
+  if (row.first_picture_s > 0) fmt::print(" |{:>8.2f}", row.first_picture_s);
   fmt::print("\n");
   std::fflush(stdout);
 }
@@ -179,17 +213,21 @@ std::string words(const Options& options) {
 }
 
 void plot(const Options& options, const std::vector<Row>& rows, const std::string& title) {
-  DetailCurve levels{"with levels of detail", kBlue, {}}, full{"full detail", kVermilion, {}},
-      osgviewer{"osgviewer", kDim, {}};
+  Curve levels{"with levels of detail", kBlue, {}}, full{"full detail", kVermilion, {}},
+      osgviewer{"osgviewer", kDim, {}}, pvbatch{"pvbatch", kInk, {}};
   for (const Row& row : rows) {
-    levels.triangles_and_ms.emplace_back(row.triangles, 1e3 * row.levels.frame_s);
-    full.triangles_and_ms.emplace_back(row.triangles, 1e3 * row.full.frame_s);
-    if (row.osgviewer_s)
-      osgviewer.triangles_and_ms.emplace_back(row.triangles, 1e3 * *row.osgviewer_s);
+    levels.points.emplace_back(row.triangles, 1e3 * row.levels.frame_s);
+    full.points.emplace_back(row.triangles, 1e3 * row.full.frame_s);
+    if (row.osgviewer) osgviewer.points.emplace_back(row.triangles, 1e3 * row.osgviewer->frame_s);
+    if (row.pvbatch) pvbatch.points.emplace_back(row.triangles, 1e3 * row.pvbatch->frame_s);
   }
-  std::vector<DetailCurve> curves = {levels, full};
-  if (options.osgviewer) curves.push_back(osgviewer);
-  write_png(detail_plot(curves, title), options.plot);
+  std::vector<Curve> curves = {levels, full};
+  for (const Curve& other : {osgviewer, pvbatch})
+    if (!other.points.empty()) curves.push_back(other);
+  LogAxis axis{"triangles of the model", {1e4, 1e5}};
+  while (axis.marks.back() < 0.95 * rows.back().triangles)
+    axis.marks.push_back(10 * axis.marks.back());
+  write_png(log_plot(curves, axis, title), options.plot);
 }
 
 void run(const Options& options) {
@@ -199,7 +237,9 @@ void run(const Options& options) {
   fmt::print("{}; medians of {} frames\n", title, options.frames);
   fmt::print("{:>10}{:>9} |{:>9}{:>10}{:>9}{:>9}{:>8}{:>6}{:>9}{}\n", "triangles", "full ms",
              "levels ms", "drawn", "faster", "of first", "mean", "max", "made, s",
-             options.osgviewer ? " |   osg ms   faster" : "");
+             options.osgviewer || options.pvbatch
+                 ? " | other's ms  faster  first (osgviewer, then pvbatch) | first picture, s"
+                 : "");
   std::vector<Row> rows;
   for (const int triangles : options.triangles) {
     rows.push_back(measure(options, triangles));
@@ -214,7 +254,7 @@ int main_of(int argc, char** argv) {
   CLI::App app(
       "A generated scan with and without levels of detail: time of a frame, triangles drawn, "
       "difference of the pictures (levels of 255, mean and largest), time to make the levels.\n"
-      "Example: detail_bench --triangles 100000,1600000 --osgviewer");
+      "Example: detail_bench --triangles 100000,1600000 --osgviewer --pvbatch");
   app.add_option("--triangles", options.triangles,
                  "Sizes of the scan (default: 10000,100000,1000000)")
       ->delimiter(',')
@@ -229,6 +269,7 @@ int main_of(int argc, char** argv) {
   app.add_flag("--unlit", options.unlit, "Vertex colours alone");
   app.add_flag("--shadows", options.shadows, "With crisp shadows");
   app.add_flag("--osgviewer", options.osgviewer, "Debian's osgviewer under Xvfb beside it");
+  app.add_flag("--pvbatch", options.pvbatch, "Debian's ParaView beside it: python3-paraview");
   app.add_option("--out", options.out, "Folder for the pictures (default: out)");
   app.add_option("--plot", options.plot, "Writes the times as a picture")->type_name("PNG");
   try {

@@ -57,8 +57,8 @@ double best_frame_s(WallRenderer& renderer) {
 void wall_of_28_tiles(benchmark::State& state, Look look, const char* picture) {
   need_context();
   WallRenderer tiles(wall_of_28(), kScale, look), one(same_as_one(), kScale, look);
-  tiles.show(show());
-  one.show(show());
+  tiles.show(pack(show()));
+  one.show(pack(show()));
   WallFrame frame;
   for (auto _ : state) {
     frame = tiles.draw(kFrame);
@@ -88,7 +88,7 @@ BENCHMARK_CAPTURE(wall_of_28_tiles, unlit, Look{Style::unlit}, "out/wall_unlit.p
 void one_picture_of_the_same_pixels(benchmark::State& state) {
   need_context();
   WallRenderer one(same_as_one(), kScale, Look{Style::lit, 1});
-  one.show(show());
+  one.show(pack(show()));
   for (auto _ : state) frame_s(one);
 }
 BENCHMARK(one_picture_of_the_same_pixels)->Unit(benchmark::kMillisecond);
@@ -117,7 +117,7 @@ Scene plate(std::initializer_list<TextureRole> roles) {
 void lit_plate(benchmark::State& state, Look look, std::initializer_list<TextureRole> roles) {
   need_context();
   WallRenderer one(same_as_one(), kScale, look);
-  one.show(plate(roles));
+  one.show(pack(plate(roles)));
   for (auto _ : state) frame_s(one);
   const SizePx size = one.layout().size;
   state.counters["pixels"] = static_cast<double>(size.width) * size.height;

@@ -19,7 +19,7 @@ int number_of(const std::string& wish, std::size_t most) {
 
 }  // namespace
 
-std::vector<std::string> clip_names(const Scene& scene) {
+std::vector<std::string> clip_names(const SceneOutline& scene) {
   std::vector<std::string> names;
   for (const Animation& animation : scene.animations) names.push_back(animation.name);
   return names;

@@ -12,7 +12,7 @@ namespace vindu {
 constexpr int kAtRest = -1;
 
 /// In the order of Scene::animations.
-std::vector<std::string> clip_names(const Scene& scene);
+std::vector<std::string> clip_names(const SceneOutline& scene);
 
 /// "1 Walk, 2 Run"
 std::string listed(const std::vector<std::string>& clips);

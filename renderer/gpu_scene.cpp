@@ -58,39 +58,17 @@ GpuMaterial gpu_material(const Material& material, ColourCoding coding, Style st
   return block;
 }
 
-/// As it is uploaded: colours are light, in 16 bits so that the dark ones keep their steps.
-struct GpuVertex {
-  Eigen::Vector3f position_in_node;
-  Eigen::Vector3f normal_in_node;
-  Eigen::Vector2f uv;
-  std::array<std::uint16_t, 4> colour;
-};
-static_assert(sizeof(GpuVertex) == 40);
-
-/// The 16-bit light of each 8-bit code.
-std::array<std::uint16_t, 256> light_codes(ColourCoding coding, Style style) {
+/// The light of colours, in 16 bits so that the dark ones keep their steps.
+std::vector<std::array<std::uint16_t, 4>> light_of_srgb(std::span<const Rgba8> colours) {
   std::array<std::uint16_t, 256> codes{};
-  for (int code = 0; code < 256; ++code) {
-    const Eigen::Vector3f colour = Eigen::Vector3f::Constant(static_cast<float>(code) / 255);
-    codes[code] =
-        static_cast<std::uint16_t>(std::lround(light_of(colour, coding, style).x() * 65535));
-  }
-  return codes;
-}
-
-std::vector<GpuVertex> gpu_vertices(const Scene& scene, Style style) {
-  const std::array<std::uint16_t, 256> codes = light_codes(scene.colours, style);
-  std::vector<GpuVertex> vertices;
-  vertices.reserve(scene.vertices.size());
-  for (const Vertex& vertex : scene.vertices) {
-    const auto [r, g, b, a] = vertex.colour;
-    const auto alpha = static_cast<std::uint16_t>(257 * a);
-    vertices.push_back({vertex.position_in_node,
-                        vertex.normal_in_node,
-                        vertex.uv,
-                        {codes[r], codes[g], codes[b], alpha}});
-  }
-  return vertices;
+  for (int code = 0; code < 256; ++code)
+    codes[code] = static_cast<std::uint16_t>(
+        std::lround(linear_from_srgb(static_cast<float>(code) / 255) * 65535));
+  std::vector<std::array<std::uint16_t, 4>> lights;
+  lights.reserve(colours.size());
+  for (const auto& [r, g, b, a] : colours)
+    lights.push_back({codes[r], codes[g], codes[b], static_cast<std::uint16_t>(257 * a)});
+  return lights;
 }
 
 /// How much longer a vector can become.
@@ -99,20 +77,31 @@ double largest_stretch(const Eigen::Matrix4f& matrix) {
   return std::sqrt((linear.transpose() * linear).selfadjointView<Eigen::Lower>().operatorNorm());
 }
 
-/// What few vertices need.
-struct GpuDetail {
-  Eigen::Vector3f tangent_in_node;
-  float bitangent_sign;
-  Eigen::Vector2f uv_1;
-};
-static_assert(sizeof(GpuDetail) == 24);
+/// Of shaders/scene.vert, whose buffers GpuSkin continues.
+enum Attribute : GLuint { kPosition, kNormal, kUv, kColour, kTangent, kSecondUvs };
+enum VertexBuffer : GLuint { kVertices, kUvs, kColours, kDetails, kInfluences };
 
-void add_attribute(GLuint array, GLuint buffer, GLuint attribute, GLint floats,
-                   std::size_t offset) {
-  glVertexArrayAttribFormat(array, attribute, floats, GL_FLOAT, GL_FALSE,
-                            static_cast<GLuint>(offset));
+/// How an attribute lies in its buffer. Integers other than floats are fractions of their largest.
+struct Layout {
+  GLint numbers = 0;
+  GLenum type = GL_FLOAT;
+  std::size_t offset = 0;
+};
+
+void add_attribute(GLuint array, VertexBuffer buffer, Attribute attribute, const Layout& layout) {
+  glVertexArrayAttribFormat(array, attribute, layout.numbers, layout.type, GL_TRUE,
+                            static_cast<GLuint>(layout.offset));
   glVertexArrayAttribBinding(array, attribute, buffer);
   glEnableVertexArrayAttrib(array, attribute);
+}
+
+/// Empty lists are no buffer.
+template <class Value>
+gl::Buffer add_buffer(GLuint array, VertexBuffer buffer, std::span<const Value> values) {
+  if (values.empty()) return {};
+  gl::Buffer made = gl::make_buffer(values.data(), values.size_bytes());
+  glVertexArrayVertexBuffer(array, buffer, made.name(), 0, sizeof(Value));
+  return made;
 }
 
 void check_memory(const std::string& name) {
@@ -122,20 +111,22 @@ void check_memory(const std::string& name) {
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, const Look& look)
-    : triangle_count_(scene.triangle_count()), skin_(scene), textures_(scene, look) {
+GpuScene::GpuScene(const PackedScene& packed, const Look& look)
+    : triangle_count_(packed.scene.triangle_count()), skin_(packed), textures_(packed, look) {
+  const SceneOutline& scene = packed.scene;
   skeleton_.nodes = scene.nodes;
   skeleton_.animations = scene.animations;
-  list_draws(scene);
-  upload_geometry(scene, look.style);
-  upload_details(scene);
+  list_draws(packed);
+  upload_geometry(packed.geometry);
+  upload_colours(packed.geometry.colours, scene.colours, look.style);
   upload_materials(scene, look.style);
   nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * kBlockBytes, GL_DYNAMIC_STORAGE_BIT);
   check_memory(scene.name);
   pose(Mat4::Identity(), 0);
 }
 
-void GpuScene::list_draws(const Scene& scene) {
+void GpuScene::list_draws(const PackedScene& packed) {
+  const SceneOutline& scene = packed.scene;
   for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
     std::map<int, int> posed;  // by their index in the scene
     const auto pose_of = [&](int coarsening) {
@@ -151,8 +142,8 @@ void GpuScene::list_draws(const Scene& scene) {
       const Material& material = scene.materials[mesh.material];
       draws_.push_back({static_cast<int>(node), mesh, material.alpha_mode, material.double_sided,
                         kind_of(material) | (mesh.skinned ? kSkinned : 0u),
-                        mesh.skinned ? joint_boxes(scene, mesh) : std::vector<JointBox>{},
-                        pose_of(mesh.made_by), pose_of(mesh.replaced_by)});
+                        packed.joint_boxes[index], pose_of(mesh.made_by),
+                        pose_of(mesh.replaced_by)});
     }
   }
   std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
@@ -160,38 +151,39 @@ void GpuScene::list_draws(const Scene& scene) {
   });
 }
 
-void GpuScene::upload_geometry(const Scene& scene, Style style) {
-  const std::vector<GpuVertex> vertices = gpu_vertices(scene, style);
-  vertices_ = gl::make_buffer(vertices.data(), vertices.size() * sizeof(GpuVertex));
-  indices_ = gl::make_buffer(scene.indices.data(), scene.indices.size() * sizeof(std::uint32_t));
+void GpuScene::upload_geometry(const PackedGeometry& geometry) {
   vertex_array_ = gl::make_vertex_array();
   const GLuint array = vertex_array_.name();
-  glVertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(GpuVertex));
+  vertices_ = add_buffer(array, kVertices, geometry.vertices);
+  indices_ = gl::make_buffer(geometry.indices.data(), geometry.indices.size_bytes());
   glVertexArrayElementBuffer(array, indices_.name());
-  add_attribute(array, 0, 0, 3, offsetof(GpuVertex, position_in_node));
-  add_attribute(array, 0, 1, 3, offsetof(GpuVertex, normal_in_node));
-  add_attribute(array, 0, 2, 2, offsetof(GpuVertex, uv));
-  glVertexArrayAttribFormat(array, 3, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(GpuVertex, colour));
-  glVertexArrayAttribBinding(array, 3, 0);
-  glEnableVertexArrayAttrib(array, 3);
-  skin_.add_attributes(array, 2);
+  add_attribute(array, kVertices, kPosition,
+                {3, GL_FLOAT, offsetof(PackedVertex, position_in_node)});
+  add_attribute(array, kVertices, kNormal, {2, GL_SHORT, offsetof(PackedVertex, normal_in_node)});
+  uvs_ = add_buffer(array, kUvs, geometry.uvs);
+  if (uvs_) add_attribute(array, kUvs, kUv, {2});
+  details_ = add_buffer(array, kDetails, geometry.details);
+  if (details_) {
+    add_attribute(array, kDetails, kTangent,
+                  {3, GL_SHORT, offsetof(PackedDetail, tangent_in_node)});
+    add_attribute(array, kDetails, kSecondUvs, {2, GL_FLOAT, offsetof(PackedDetail, uv_1)});
+  }
+  skin_.add_attributes(array, kInfluences);
 }
 
-void GpuScene::upload_details(const Scene& scene) {
-  constexpr SurfaceKind detailed = kSecondUv | textured(TextureRole::normal);
-  if (std::ranges::none_of(draws_, [](const Draw& draw) { return draw.kind & detailed; })) return;
-  std::vector<GpuDetail> details;
-  details.reserve(scene.vertices.size());
-  for (const Vertex& vertex : scene.vertices)
-    details.push_back({vertex.tangent_in_node, vertex.bitangent_sign, vertex.uv_1});
-  details_ = gl::make_buffer(details.data(), details.size() * sizeof(GpuDetail));
+void GpuScene::upload_colours(std::span<const Rgba8> colours, ColourCoding coding, Style style) {
   const GLuint array = vertex_array_.name();
-  glVertexArrayVertexBuffer(array, 1, details_.name(), 0, sizeof(GpuDetail));
-  add_attribute(array, 1, 4, 4, offsetof(GpuDetail, tangent_in_node));
-  add_attribute(array, 1, 5, 2, offsetof(GpuDetail, uv_1));
+  if (coding == ColourCoding::linear || style == Style::unlit) {
+    colours_ = add_buffer(array, kColours, colours);
+    if (colours_) add_attribute(array, kColours, kColour, {4, GL_UNSIGNED_BYTE});
+    return;
+  }
+  const auto lights = light_of_srgb(colours);
+  colours_ = add_buffer(array, kColours, std::span(std::as_const(lights)));
+  if (colours_) add_attribute(array, kColours, kColour, {4, GL_UNSIGNED_SHORT});
 }
 
-void GpuScene::upload_materials(const Scene& scene, Style style) {
+void GpuScene::upload_materials(const SceneOutline& scene, Style style) {
   std::vector<std::byte> blocks(scene.materials.size() * kBlockBytes);
   for (std::size_t index = 0; index < scene.materials.size(); ++index) {
     const GpuMaterial material = gpu_material(scene.materials[index], scene.colours, style);
@@ -257,6 +249,7 @@ void GpuScene::place_draws() {
 
 void GpuScene::bind() const {
   glBindVertexArray(vertex_array_.name());
+  if (!colours_) glVertexAttrib4f(kColour, 1, 1, 1, 1);  // of all vertices
   skin_.bind();
 }
 

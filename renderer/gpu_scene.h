@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/rigid3.h"
@@ -17,10 +18,10 @@ namespace vindu {
 
 class GpuScene {
  public:
-  /// Keeps `scene`'s nodes and animations, not its geometry. Throws Error when the GPU's memory
+  /// Keeps the scene's nodes and animations, not its geometry. Throws Error when the GPU's memory
   /// does not suffice.
-  GpuScene(const Scene& scene, const Look& look);
-  GpuScene(const Scene& scene, Style style) : GpuScene(scene, Look{style}) {}
+  GpuScene(const PackedScene& packed, const Look& look);
+  GpuScene(const PackedScene& packed, Style style) : GpuScene(packed, Look{style}) {}
 
   /// Once a frame, before any view is drawn: where the scene stands, which of its animations plays
   /// and where that is.
@@ -79,15 +80,15 @@ class GpuScene {
   void bind(const Draw& draw, SurfaceKind kind) const;
 
  private:
-  void upload_geometry(const Scene& scene, Style style);
-  void upload_details(const Scene& scene);
-  void upload_materials(const Scene& scene, Style style);
-  void list_draws(const Scene& scene);
+  void upload_geometry(const PackedGeometry& geometry);
+  void upload_colours(std::span<const Rgba8> colours, ColourCoding coding, Style style);
+  void upload_materials(const SceneOutline& scene, Style style);
+  void list_draws(const PackedScene& packed);
   void place_draws();
   template <class Fine>
   std::vector<const Draw*> chosen_where(Fine fine) const;
 
-  Scene skeleton_;  // nodes and animations
+  SceneOutline skeleton_;  // nodes and animations
   std::size_t triangle_count_ = 0;
   std::vector<Draw> draws_;
   std::vector<Box3f> bounds_in_world_;  // of each draw
@@ -103,11 +104,9 @@ class GpuScene {
   std::uint64_t moves_ = 0;
   std::vector<Facing> facings_, skinned_facings_;                    // of each node
   std::vector<std::array<TextureUse, kTextureRoles>> texture_uses_;  // of each material
-  gl::Buffer vertices_;
-  gl::Buffer details_;  // tangents and second texture coordinates, where a material asks for them
-  gl::Buffer indices_;
-  gl::Buffer materials_;  // uniform blocks, kBlockBytes apart
-  gl::Buffer nodes_;      // the same
+  gl::Buffer vertices_, uvs_, colours_, details_, indices_;  // none where PackedGeometry has none
+  gl::Buffer materials_;                                     // uniform blocks, kBlockBytes apart
+  gl::Buffer nodes_;                                         // the same
   gl::VertexArray vertex_array_;
   GpuSkin skin_;
   GpuTextures textures_;

@@ -16,12 +16,11 @@ using Rows = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 
 }  // namespace
 
-GpuSkin::GpuSkin(const Scene& scene) {
-  joints_.joints = scene.skin.joints;
-  if (scene.skin.influences.empty()) return;
-  influences_ = gl::make_buffer(scene.skin.influences.data(),
-                                scene.skin.influences.size() * sizeof(Influences));
-  palette_ = gl::make_buffer(nullptr, joints_.joints.size() * sizeof(Rows), GL_DYNAMIC_STORAGE_BIT);
+GpuSkin::GpuSkin(const PackedScene& packed) : joints_(packed.scene.joints) {
+  const auto influences = packed.geometry.influences;
+  if (influences.empty()) return;
+  influences_ = gl::make_buffer(influences.data(), influences.size_bytes());
+  palette_ = gl::make_buffer(nullptr, joints_.size() * sizeof(Rows), GL_DYNAMIC_STORAGE_BIT);
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
   palette_texture_ = gl::Texture(name);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "renderer/gl/handle.h"
-#include "renderer/skinning.h"
+#include "renderer/packed_scene.h"
 
 namespace vindu {
 
@@ -15,8 +15,8 @@ constexpr GLuint kPaletteUnit = 6;
 
 class GpuSkin {
  public:
-  /// Keeps `scene`'s joints. Without any this costs nothing.
-  explicit GpuSkin(const Scene& scene);
+  /// Keeps the scene's joints. Without any this costs nothing.
+  explicit GpuSkin(const PackedScene& packed);
 
   /// To a vertex array: `binding` is a free one of its buffers.
   void add_attributes(GLuint vertex_array, GLuint binding) const;
@@ -32,7 +32,7 @@ class GpuSkin {
   void bind() const;
 
  private:
-  Skin joints_;  // without influences
+  std::vector<Joint> joints_;
   std::vector<Eigen::Matrix4f> world_from_meshes_;
   std::vector<bool> mirrored_;
   gl::Buffer influences_;

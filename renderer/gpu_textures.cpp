@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "renderer/mipmaps.h"
+
 namespace vindu {
 namespace {
-
-bool holds_colour(TextureRole role) {
-  return role == TextureRole::base_colour || role == TextureRole::emissive;
-}
 
 GLint gl_wrap(Wrap wrap) {
   switch (wrap) {
@@ -24,31 +22,33 @@ GLint gl_wrap(Wrap wrap) {
 
 }  // namespace
 
-GpuTextures::GpuTextures(const Scene& scene, const Look& look) : look_(look) {
-  for (const Material& material : scene.materials)
+GpuTextures::GpuTextures(const PackedScene& packed, const Look& look) : look_(look) {
+  for (const Material& material : packed.scene.materials)
     for (std::size_t i = 0; i < kTextureRoles; ++i) {
       const auto role = static_cast<TextureRole>(i);
       const TextureUse& use = material.textures[i];
       if (use.image < 0 || (look.style == Style::unlit && role != TextureRole::base_colour))
         continue;
-      upload(scene.textures[static_cast<std::size_t>(use.image)], use.image, holds_colour(role));
+      textures_.try_emplace({use.image, holds_colour(role)});
       make_sampler(use.wrap_u, use.wrap_v);
     }
+  for (const PackedTexture& texture : packed.textures)
+    if (textures_.contains({texture.image, texture.srgb})) upload(texture);
 }
 
-void GpuTextures::upload(const Image& image, int index, bool srgb) {
-  const auto [entry, is_new] = textures_.try_emplace({index, srgb});
-  if (!is_new) return;
-  gl::Texture texture = gl::make_texture_2d();
-  const auto longest = static_cast<unsigned>(std::max(image.width_px, image.height_px));
-  glTextureStorage2D(texture.name(), std::bit_width(longest),
-                     srgb && look_.style == Style::lit ? GL_SRGB8_ALPHA8 : GL_RGBA8, image.width_px,
-                     image.height_px);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width_px, image.height_px, GL_RGBA,
-                      GL_UNSIGNED_BYTE, image.pixels.data());
-  glGenerateTextureMipmap(texture.name());
-  entry->second = std::move(texture);
+void GpuTextures::upload(const PackedTexture& packed) {
+  gl::Texture& texture = textures_.at({packed.image, packed.srgb}) = gl::make_texture_2d();
+  SizePx size = {packed.width_px, packed.height_px};
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(size.width, size.height)));
+  const bool decoded = packed.srgb && look_.style == Style::lit;
+  glTextureStorage2D(texture.name(), levels, decoded ? GL_SRGB8_ALPHA8 : GL_RGBA8, size.width,
+                     size.height);
+  const Rgba8* pixels = packed.pixels.data();
+  for (int level = 0; level < levels; ++level, size = half_of(size)) {
+    glTextureSubImage2D(texture.name(), level, 0, 0, size.width, size.height, GL_RGBA,
+                        GL_UNSIGNED_BYTE, pixels);
+    pixels += static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+  }
 }
 
 void GpuTextures::make_sampler(Wrap u, Wrap v) {

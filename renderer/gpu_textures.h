@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "renderer/canvas.h"
-#include "renderer/scene.h"
+#include "renderer/packed_scene.h"
 
 namespace vindu {
 
@@ -15,14 +15,14 @@ constexpr GLuint kShadowUnit = kTextureRoles;
 
 class GpuTextures {
  public:
-  /// Uploads what the scene's materials use, with mipmaps.
-  GpuTextures(const Scene& scene, const Look& look);
+  /// Uploads what the scene's materials use.
+  GpuTextures(const PackedScene& packed, const Look& look);
 
   /// To the unit of its role.
   void bind(const TextureUse& use, TextureRole role) const;
 
  private:
-  void upload(const Image& image, int index, bool srgb);
+  void upload(const PackedTexture& packed);
   void make_sampler(Wrap u, Wrap v);
 
   Look look_;

@@ -231,7 +231,7 @@ std::vector<int> import_meshes(const aiScene& source, const std::string& file,
   MaterialImporter materials(source, style, textures, result.warnings);
   MeshLosses losses;
   std::vector<int> mesh_of_source(source.mNumMeshes, -1);
-  SkinImporter skins(nodes.by_name, scene.skin);
+  SkinImporter skins(nodes.by_name, scene.joints);
   const std::vector<int> node_of_source = first_nodes(source, nodes);
   for (unsigned i = 0; i < source.mNumMeshes; ++i) {
     if (node_of_source[i] < 0) continue;

@@ -152,8 +152,8 @@ class VertexTable {
     const std::uint32_t index = skinned_->index_of({vertex, influences_[source]});
     if (first_ + index == scene_.vertices.size()) {
       scene_.vertices.push_back(vertex);
-      scene_.skin.influences.resize(scene_.vertices.size());
-      scene_.skin.influences.back() = influences_[source];
+      scene_.influences.resize(scene_.vertices.size());
+      scene_.influences.back() = influences_[source];
     }
     return static_cast<std::uint32_t>(first_ + index);
   }
@@ -225,7 +225,7 @@ std::optional<Mesh> append_mesh(const aiMesh& source, const MeshOptions& options
     append_as_given(source, reader, corners, scene);
   else
     append_with_normals(source, reader, corners, scene);
-  if (!scene.skin.influences.empty()) scene.skin.influences.resize(scene.vertices.size());
+  if (!scene.influences.empty()) scene.influences.resize(scene.vertices.size());
   if (options.normal_map) complete_tangents(scene, mesh, *options.normal_map);
   mesh.bounds_in_node = bounds_of(scene, mesh);
   return mesh;

@@ -42,9 +42,9 @@ std::optional<std::uint16_t> SkinImporter::joint_at(int node,
   Matrix key;
   std::memcpy(key.data(), joint_from_mesh.data(), sizeof(key));
   if (const auto known = known_.find({node, key}); known != known_.end()) return known->second;
-  if (skin_.joints.size() >= kMaxJoints) return std::nullopt;
-  const auto index = static_cast<std::uint16_t>(skin_.joints.size());
-  skin_.joints.push_back({node, joint_from_mesh});
+  if (joints_.size() >= kMaxJoints) return std::nullopt;
+  const auto index = static_cast<std::uint16_t>(joints_.size());
+  joints_.push_back({node, joint_from_mesh});
   known_[{node, key}] = index;
   return index;
 }

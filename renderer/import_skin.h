@@ -38,9 +38,9 @@ class Pulls {
 
 class SkinImporter {
  public:
-  /// Appends to `skin`'s joints. Both must outlive it.
-  SkinImporter(const std::map<std::string, int>& node_of_name, Skin& skin)
-      : node_of_name_(node_of_name), skin_(skin) {}
+  /// Appends to `joints`. Both must outlive it.
+  SkinImporter(const std::map<std::string, int>& node_of_name, std::vector<Joint>& joints)
+      : node_of_name_(node_of_name), joints_(joints) {}
 
   /// Of each vertex of a mesh, which hangs on `node`: that moves what no bone does. Empty where
   /// none of its vertices follows a bone.
@@ -56,7 +56,7 @@ class SkinImporter {
   std::optional<std::uint16_t> joint_at(int node, const Eigen::Matrix4f& joint_from_mesh);
 
   const std::map<std::string, int>& node_of_name_;
-  Skin& skin_;
+  std::vector<Joint>& joints_;
   std::map<std::pair<int, Matrix>, std::uint16_t> known_;
   std::size_t bones_left_out_ = 0, weights_left_out_ = 0;
   std::size_t vertices_of_many_ = 0;

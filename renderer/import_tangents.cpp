@@ -62,9 +62,9 @@ class SplitVertices {
     if (is_new) {
       const Vertex copy = scene_.vertices[vertex];
       scene_.vertices.push_back(copy);
-      if (!scene_.skin.influences.empty()) {
-        const Influences same = scene_.skin.influences[vertex];
-        scene_.skin.influences.push_back(same);
+      if (!scene_.influences.empty()) {
+        const Influences same = scene_.influences[vertex];
+        scene_.influences.push_back(same);
       }
       sign_of_[other->second] = mirrored;
     }

@@ -37,11 +37,11 @@ std::string shown_size(const Box3f& box, double scale) {
 
 }  // namespace
 
-PlacedScene place_scene(const Scene& scene, Placement placement, const Wall& wall) {
+PlacedScene place_scene(const PackedScene& packed, Placement placement, const Wall& wall) {
   if (placement == Placement::as_is) return {};
-  const Box3f box = bounds_in_scene(scene);
-  if (placement == Placement::life_size && scene.metres_per_unit) {
-    const double scale = *scene.metres_per_unit;
+  const Box3f& box = packed.bounds_in_scene;
+  if (placement == Placement::life_size && packed.scene.metres_per_unit) {
+    const double scale = *packed.scene.metres_per_unit;
     return {centred(box, scale), "shown life-size: " + shown_size(box, scale)};
   }
   const double scale = fit_scale(box, wall);

@@ -6,7 +6,7 @@
 
 #include "core/frame_state.h"
 #include "core/site.h"
-#include "renderer/scene.h"
+#include "renderer/packed_scene.h"
 
 namespace vindu {
 
@@ -18,6 +18,6 @@ struct PlacedScene {
 /// fit: four fifths of the wall's width or height, whichever is reached first, centred, its front
 /// in the screen plane. life_size: metres if the file states its unit, else fitted, and the remark
 /// says so. as_is: coordinates are wall's.
-PlacedScene place_scene(const Scene& scene, Placement placement, const Wall& wall);
+PlacedScene place_scene(const PackedScene& packed, Placement placement, const Wall& wall);
 
 }  // namespace vindu

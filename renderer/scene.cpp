@@ -88,7 +88,7 @@ float linear_from_srgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s,
+std::vector<Eigen::Matrix4f> node_transforms(const SceneOutline& scene, double animation_time_s,
                                              int clip) {
   std::vector<Eigen::Matrix4f> transforms = transforms_at_rest(scene.nodes);
   if (clip >= 0 && static_cast<std::size_t>(clip) < scene.animations.size()) {
@@ -101,7 +101,7 @@ std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animatio
   return transforms;
 }
 
-std::size_t Scene::triangle_count() const {
+std::size_t SceneOutline::triangle_count() const {
   std::size_t indices_of_all = 0;
   for (const Mesh& mesh : meshes) indices_of_all += mesh.made_by < 0 ? mesh.index_count : 0;
   return indices_of_all / 3;
@@ -110,7 +110,7 @@ std::size_t Scene::triangle_count() const {
 Box3f bounds_in_scene(const Scene& scene) {
   std::vector<Eigen::Matrix4f> transforms = transforms_at_rest(scene.nodes);
   compose(scene.nodes, transforms);
-  const std::vector<Eigen::Matrix4f> joints = joint_transforms(scene.skin, transforms);
+  const std::vector<Eigen::Matrix4f> joints = joint_transforms(scene.joints, transforms);
   Box3f bounds;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
     for (const int index : scene.nodes[i].meshes) {
@@ -120,7 +120,7 @@ Box3f bounds_in_scene(const Scene& scene) {
       for (std::uint32_t at = mesh.first_index; at < mesh.first_index + mesh.index_count; ++at) {
         const std::uint32_t vertex = scene.indices[at];
         const Eigen::Vector3f& position = scene.vertices[vertex].position_in_node;
-        bounds.extend(mesh.skinned ? skinned(position, scene.skin.influences[vertex], joints)
+        bounds.extend(mesh.skinned ? skinned(position, scene.influences[vertex], joints)
                                    : Eigen::Vector3f(scene_from_node * position));
       }
     }

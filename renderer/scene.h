@@ -78,7 +78,7 @@ struct Mesh {
   std::uint32_t index_count = 0;  ///< triangles: a multiple of 3; indices are absolute
   int material = 0;
   Box3f bounds_in_node;
-  bool skinned = false;  ///< Scene::skin moves its vertices, which are in the mesh's own frame
+  bool skinned = false;  ///< joints move its vertices, which are in the mesh's own frame
   // Levels of detail: indices into Scene::coarsenings, or -1. A mesh is drawn where the first is
   // fine enough and the second is not.
   int made_by = -1;      ///< its triangles are the coarser ones of this; -1: full detail
@@ -127,26 +127,31 @@ enum class ColourCoding { linear, srgb };
 /// The sRGB transfer function (IEC 61966-2-1), decoding: [0, 1] -> [0, 1].
 float linear_from_srgb(float encoded);
 
-struct Scene {
+/// All of a scene that is small: what it is made of and how that moves.
+struct SceneOutline {
   std::string name;
-  std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;
   std::vector<Mesh> meshes;
   std::vector<Coarsening> coarsenings;
   std::vector<Material> materials;  ///< at least one where there is a mesh
-  std::vector<Image> textures;
   std::vector<Node> nodes;
   std::vector<Animation> animations;
-  Skin skin;
+  std::vector<Joint> joints;
   ColourCoding colours = ColourCoding::linear;
   std::optional<double> metres_per_unit;  ///< empty: the file does not say
 
   std::size_t triangle_count() const;  ///< of full detail
 };
 
+struct Scene : SceneOutline {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<Influences> influences;  ///< of each vertex; empty: nothing is skinned
+  std::vector<Image> textures;
+};
+
 /// scene_from_node of every node at a time, an animation played round and round; at rest where
 /// there is no animation of that number.
-std::vector<Eigen::Matrix4f> node_transforms(const Scene& scene, double animation_time_s,
+std::vector<Eigen::Matrix4f> node_transforms(const SceneOutline& scene, double animation_time_s,
                                              int clip = 0);
 
 /// Of all triangles at rest.

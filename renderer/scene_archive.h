@@ -1,5 +1,6 @@
 // The bytes of a scene file, both ways by one description of each type: numbers as they lie in
-// memory (little endian), lists with their length before them.
+// memory (little endian), lists with their length before them, and those that are used where they
+// lie (spans) at whole multiples of 16 bytes.
 #pragma once
 
 #include <bit>
@@ -22,9 +23,13 @@ static_assert(std::endian::native == std::endian::little);
 template <class Type>
 constexpr bool kPlain = std::is_arithmetic_v<Type> || std::is_enum_v<Type>;
 template <>
-constexpr bool kPlain<Vertex> = sizeof(Vertex) == 60;
+constexpr bool kPlain<PackedVertex> = sizeof(PackedVertex) == 16;
+template <>
+constexpr bool kPlain<PackedDetail> = sizeof(PackedDetail) == 16;
 template <>
 constexpr bool kPlain<Influences> = sizeof(Influences) == 16;
+template <>
+constexpr bool kPlain<JointBox> = sizeof(JointBox) == 28;
 template <>
 constexpr bool kPlain<Rgba8> = true;
 template <class Scalar, int Rows, int Columns>
@@ -33,6 +38,9 @@ template <>
 constexpr bool kPlain<Eigen::Quaternionf> = true;
 template <>
 constexpr bool kPlain<Box3f> = true;
+
+/// Of the spans, from the content's first byte on.
+constexpr std::size_t kAlignment = 16;
 
 class SceneWriter {
  public:
@@ -63,6 +71,13 @@ class SceneWriter {
     else
       for (const Value& value : list) put(value);
   }
+  template <class Value>
+  requires kPlain<Value>
+  void put(const std::span<const Value>& list) {
+    put(std::uint64_t{list.size()});
+    bytes_.resize((bytes_.size() + kAlignment - 1) / kAlignment * kAlignment);
+    append(list.data(), list.size_bytes());
+  }
   template <class Value, std::size_t Count>
   void put(const std::array<Value, Count>& list) {
     for (const Value& value : list) put(value);
@@ -80,10 +95,11 @@ class SceneWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Of bytes that may be damaged: good() is false from the first one that is missing.
+/// Of bytes that may be damaged: good() is false from the first one that is missing. They must lie
+/// at a multiple of kAlignment, and outlive the spans.
 class SceneReader {
  public:
-  explicit SceneReader(std::span<const std::uint8_t> bytes) : left_(bytes) {}
+  explicit SceneReader(std::span<const std::uint8_t> bytes) : begin_(bytes.data()), left_(bytes) {}
 
   template <class... Values>
   void operator()(Values&... values) {
@@ -98,6 +114,10 @@ class SceneReader {
     if (!good_ || size == 0) return;
     std::memcpy(to, left_.data(), size);
     left_ = left_.subspan(size);
+  }
+  void skip(std::size_t size) {
+    good_ = good_ && size <= left_.size();
+    if (good_) left_ = left_.subspan(size);
   }
   /// Of things that take `least` bytes each; 0 where there cannot be so many.
   std::size_t count(std::size_t least) {
@@ -129,6 +149,17 @@ class SceneReader {
         if (good_) get(value);
     }
   }
+  template <class Value>
+  void get(std::span<const Value>& list) {
+    static_assert(alignof(Value) <= kAlignment);
+    const std::size_t size = count(sizeof(Value));
+    const auto over = static_cast<std::size_t>(left_.data() - begin_) % kAlignment;
+    skip(over == 0 ? 0 : kAlignment - over);
+    good_ = good_ && size <= left_.size() / sizeof(Value);
+    if (!good_) return;
+    list = {reinterpret_cast<const Value*>(left_.data()), size};
+    skip(list.size_bytes());
+  }
   template <class Value, std::size_t Count>
   void get(std::array<Value, Count>& list) {
     for (Value& value : list) get(value);
@@ -144,14 +175,10 @@ class SceneReader {
   template <class Value>
   requires(!kPlain<Value>) void get(Value& value) { fields(*this, value); }
 
+  const std::uint8_t* begin_;
   std::span<const std::uint8_t> left_;
   bool good_ = true;
 };
-
-template <class Archive>
-void fields(Archive& archive, Image& image) {
-  archive(image.width_px, image.height_px, image.pixels);
-}
 
 template <class Archive>
 void fields(Archive& archive, TextureUse& use) {
@@ -202,15 +229,20 @@ void fields(Archive& archive, Joint& joint) {
 }
 
 template <class Archive>
-void fields(Archive& archive, Skin& skin) {
-  archive(skin.joints, skin.influences);
+void fields(Archive& archive, SceneOutline& scene) {
+  archive(scene.name, scene.meshes, scene.coarsenings, scene.materials, scene.nodes,
+          scene.animations, scene.joints, scene.colours, scene.metres_per_unit);
 }
 
 template <class Archive>
-void fields(Archive& archive, Scene& scene) {
-  archive(scene.name, scene.vertices, scene.indices, scene.meshes, scene.coarsenings,
-          scene.materials, scene.textures, scene.nodes, scene.animations, scene.skin, scene.colours,
-          scene.metres_per_unit);
+void fields(Archive& archive, PackedGeometry& geometry) {
+  archive(geometry.vertices, geometry.uvs, geometry.colours, geometry.details, geometry.influences,
+          geometry.indices);
+}
+
+template <class Archive>
+void fields(Archive& archive, PackedTexture& texture) {
+  archive(texture.image, texture.srgb, texture.width_px, texture.height_px, texture.pixels);
 }
 
 template <class Archive>
@@ -220,7 +252,8 @@ void fields(Archive& archive, SceneSource& source) {
 
 template <class Archive>
 void fields(Archive& archive, PackedScene& packed) {
-  archive(packed.sources, packed.imported.warnings, packed.imported.scene);
+  archive(packed.sources, packed.warnings, packed.scene, packed.bounds_in_scene, packed.joint_boxes,
+          packed.geometry, packed.textures);
 }
 
 }  // namespace vindu

@@ -5,13 +5,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace vindu {
 
 /// Of one vertex, the strongest first.
 struct Influences {
-  std::array<std::uint16_t, 4> joints{};   ///< indices into Skin::joints
+  std::array<std::uint16_t, 4> joints{};   ///< indices into SceneOutline::joints
   std::array<std::uint16_t, 4> weights{};  ///< of kFullWeight, which they are together
 };
 constexpr std::uint16_t kFullWeight = 65535;
@@ -25,11 +24,5 @@ struct Joint {
 
 /// As many matrices as every GPU has room for in a buffer texture (65,536 texels at least).
 constexpr std::size_t kMaxJoints = 16'384;
-
-struct Skin {
-  std::vector<Joint> joints;
-  std::vector<Influences>
-      influences;  ///< of each of the scene's vertices; empty: nothing is skinned
-};
 
 }  // namespace vindu

@@ -4,11 +4,11 @@
 
 namespace vindu {
 
-std::vector<Eigen::Matrix4f> joint_transforms(const Skin& skin,
+std::vector<Eigen::Matrix4f> joint_transforms(std::span<const Joint> joints,
                                               std::span<const Eigen::Matrix4f> world_from_nodes) {
   std::vector<Eigen::Matrix4f> world_from_meshes;
-  world_from_meshes.reserve(skin.joints.size());
-  for (const Joint& joint : skin.joints) {
+  world_from_meshes.reserve(joints.size());
+  for (const Joint& joint : joints) {
     const Eigen::Matrix4d world_from_node =
         world_from_nodes[static_cast<std::size_t>(joint.node)].cast<double>();
     const Eigen::Matrix4d world_from_mesh = world_from_node * joint.joint_from_mesh.cast<double>();
@@ -33,7 +33,7 @@ std::vector<JointBox> joint_boxes(const Scene& scene, const Mesh& mesh) {
   std::map<int, Box3f> boxes;
   for (std::uint32_t at = mesh.first_index; at < mesh.first_index + mesh.index_count; ++at) {
     const std::uint32_t vertex = scene.indices[at];
-    const Influences& influences = scene.skin.influences[vertex];
+    const Influences& influences = scene.influences[vertex];
     for (std::size_t i = 0; i < influences.joints.size(); ++i)
       if (influences.weights[i] > 0)
         boxes[influences.joints[i]].extend(scene.vertices[vertex].position_in_node);

@@ -10,7 +10,7 @@
 namespace vindu {
 
 /// world_from_mesh of each joint, by world_from_node of each node. The world may be the scene.
-std::vector<Eigen::Matrix4f> joint_transforms(const Skin& skin,
+std::vector<Eigen::Matrix4f> joint_transforms(std::span<const Joint> joints,
                                               std::span<const Eigen::Matrix4f> world_from_nodes);
 
 /// A vertex' place in world.

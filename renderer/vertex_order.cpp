@@ -18,7 +18,7 @@ void order_vertices_by_use(Scene& scene, std::span<const Mesh> meshes) {
       if (place_of[index] != kUnused) continue;
       place_of[index] = static_cast<std::uint32_t>(ordered.size());
       ordered.push_back(scene.vertices[index]);
-      if (!scene.skin.influences.empty()) influences.push_back(scene.skin.influences[index]);
+      if (!scene.influences.empty()) influences.push_back(scene.influences[index]);
     }
   };
   for (const Mesh& mesh : meshes)
@@ -26,7 +26,7 @@ void order_vertices_by_use(Scene& scene, std::span<const Mesh> meshes) {
   use(scene.indices);
   for (std::uint32_t& index : scene.indices) index = place_of[index];
   scene.vertices = std::move(ordered);
-  scene.skin.influences = std::move(influences);
+  scene.influences = std::move(influences);
 }
 
 void order_triangles_by_vertices(std::span<std::uint32_t> indices) {

@@ -66,13 +66,13 @@ WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look, con
     shadow_ = std::make_unique<ShadowMap>(look);
 }
 
-void WallRenderer::show(const Scene& scene) {
-  prepare(scene);
+void WallRenderer::show(const PackedScene& packed) {
+  prepare(packed);
   show_prepared();
 }
 
-void WallRenderer::prepare(const Scene& scene) {
-  prepared_ = std::make_unique<GpuScene>(scene, renderer_.look());
+void WallRenderer::prepare(const PackedScene& packed) {
+  prepared_ = std::make_unique<GpuScene>(packed, renderer_.look());
   prepared_->pose(Mat4::Identity(), 0);
   const auto view = tile_view(wall_.tiles.front().corners, Vec3(0, 0, 2));
   const GpuScene* const drawn = prepared_.get();

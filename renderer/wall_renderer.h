@@ -39,10 +39,10 @@ class WallRenderer {
   WallRenderer(const Wall& wall, double scale, const Look& look, const Wall& whole);
 
   /// Replaces the scene; when that throws, the old one stays.
-  void show(const Scene& scene);
+  void show(const PackedScene& packed);
   /// The same in two steps: loads it beside the one that is shown, and draws it once unseen, so
   /// that drivers have done what they do at first; then changes to it at once.
-  void prepare(const Scene& scene);
+  void prepare(const PackedScene& packed);
   void show_prepared();
 
   /// Draws all tiles, or only one, into picture().

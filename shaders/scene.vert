@@ -3,11 +3,11 @@
 // world position is computed first and alone, so that it is bit-equal on all tiles.
 
 layout(location = 0) in vec3 position_in_node;
-layout(location = 1) in vec3 normal_in_node;
+layout(location = 1) in vec2 packed_normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
 #ifdef NORMAL_TEXTURE
-layout(location = 4) in vec4 tangent_in_node;  // w: the bitangent's sign
+layout(location = 4) in vec3 packed_tangent;  // z: the bitangent's sign, of 32767
 #endif
 #ifdef SECOND_UV
 layout(location = 5) in vec2 uv_1;
@@ -52,7 +52,17 @@ mat4x3 world_from_mesh() {
 }
 #endif
 
+// As renderer/packed_scene.h packs them.
+vec3 direction(vec2 square) {
+  vec3 folded = vec3(square, 1.0 - abs(square.x) - abs(square.y));
+  float over = max(-folded.z, 0.0);
+  folded.x += folded.x < 0.0 ? over : -over;
+  folded.y += folded.y < 0.0 ? over : -over;
+  return normalize(folded);
+}
+
 void main() {
+  vec3 normal_in_node = direction(packed_normal);
 #ifdef SKINNED
   mat4x3 world_from_node = world_from_mesh();
   vec4 position_in_world = vec4(world_from_node * vec4(position_in_node, 1.0), 1.0);
@@ -73,7 +83,7 @@ void main() {
   out_colour = colour;
 #ifdef NORMAL_TEXTURE
   out_tangent_in_world =
-      vec4(mat3(world_from_node) * tangent_in_node.xyz, side * tangent_in_node.w);
+      vec4(mat3(world_from_node) * direction(packed_tangent.xy), side * sign(packed_tangent.z));
 #endif
 #ifdef SECOND_UV
   out_uv_1 = uv_1;

@@ -77,11 +77,11 @@ class ClosedLoop : public testing::Test {
                                const Vec3& true_eye, int every = 1) {
     const Scene& code = true_eye.z() < 1 ? *coarse_code_ : *fine_code_;
     WallRenderer renderer(drawn, 1, {Style::unlit});
-    renderer.show(code);
+    renderer.show(pack(code));
     const WallFrame frame = renderer.draw({.eye_in_wall = drawn_eye});
     EXPECT_TRUE(frame.black_tiles.empty());
     const SceneRenderer reference(Style::unlit);
-    const GpuScene scene(code, Style::unlit);
+    const GpuScene scene(pack(code), Style::unlit);
     Displacements all;
     for (std::size_t index = 0; index < drawn.tiles.size();
          index += static_cast<std::size_t>(every))

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Builds the fuzzers with clang's libFuzzer and lets each search for a while:
-#   tests/fuzz/run.sh [SECONDS] [NAME...]        (default 60 wiimote wire)
+#   tests/fuzz/run.sh [SECONDS] [NAME...]        (default 60 wiimote wire scene)
 # What one finds is left in build/fuzz/NAME as crash-...; give that file to its program to see it
 # again.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 seconds=${1:-60}
 names=("${@:2}")
-[[ ${#names[@]} -gt 0 ]] || names=(wiimote wire)
+[[ ${#names[@]} -gt 0 ]] || names=(wiimote wire scene)
 
 # fuzz NAME LENGTH COMPILER-ARGUMENT...: tests/fuzz/NAME_fuzz.cpp on inputs of up to LENGTH bytes.
 fuzz() {
@@ -41,6 +41,17 @@ wire() {
   fuzz wire 4096 -I"$generated" -isystem /usr/include/eigen3 "$root"/cluster/{cdr,topics}.cpp \
     "$root"/cluster/internal/{participant_text,wire_types}.cpp \
     "$root"/core/{error,frame_state}.cpp "$generated/wire.o" -lddsc
+}
+
+# Seeded with good scenes.
+scene() {
+  local sources=("$root"/renderer/{mipmaps,packed_scene,scene,scene_file,skinning,surface_kind}.cpp
+    "$root"/core/error.cpp -isystem /usr/include/eigen3 -lstb)
+  mkdir -p "$root/build/fuzz/scene/corpus"
+  clang++ -std=c++20 -I"$root" "$root/tests/fuzz/scene_seeds.cpp" "${sources[@]}" \
+    -o "$root/build/fuzz/scene/seeds"
+  "$root/build/fuzz/scene/seeds" "$root/build/fuzz/scene/corpus"
+  fuzz scene 8192 "${sources[@]}"
 }
 
 for name in "${names[@]}"; do

@@ -47,7 +47,7 @@ Scene show() {
 
 Image show_from(const Vec3& eye_in_wall, Style style = Style::lit) {
   WallRenderer wall(small_screen(), 1, Look{style});
-  wall.show(show());
+  wall.show(pack(show()));
   wall.draw(seen_from(eye_in_wall));
   return wall.picture().read();
 }
@@ -83,8 +83,9 @@ Image model(const std::string& name) {
   cut_into_chunks(scene);
   const Wall screen = single_screen(0.8, 0.6, 240, 180);
   WallRenderer wall(screen, 1, Look{Style::lit});
-  wall.show(scene);
-  wall.draw(seen_from({0.35, 0.3, 0.9}, place_scene(scene, Placement::fit, screen).navigation));
+  wall.show(pack(scene));
+  wall.draw(
+      seen_from({0.35, 0.3, 0.9}, place_scene(pack(scene), Placement::fit, screen).navigation));
   return wall.picture().read();
 }
 
@@ -110,12 +111,12 @@ TEST_F(Golden, SkinnedCharacterAtFourTimes) {
   cut_into_chunks(scene);
   const Wall screen = single_screen(1.6, 0.9, 320, 180);
   WallRenderer wall(screen, 1, Look{Style::lit});
-  wall.show(scene);
+  wall.show(pack(scene));
   Image all = Image::filled(4 * 320, 180, {});
   int x = 0;
   for (const auto& [clip, time_s] : {std::pair(0, 0.1), {0, 0.5}, {1, 0.4}, {1, 2.2}}) {
     FrameState state =
-        seen_from({0.9, 0.4, 1.2}, place_scene(scene, Placement::fit, screen).navigation);
+        seen_from({0.9, 0.4, 1.2}, place_scene(pack(scene), Placement::fit, screen).navigation);
     state.clip = clip;
     state.animation_time_s = time_s;
     wall.draw(state);
@@ -128,7 +129,7 @@ TEST_F(Golden, SkinnedCharacterAtFourTimes) {
 /// For a projector behind the screen that hangs upright: mirrored, then turned.
 TEST_F(Golden, ShowForAMirroredAndTurnedProjector) {
   WallRenderer wall(small_screen(), 1, Look{Style::lit});
-  wall.show(show());
+  wall.show(pack(show()));
   wall.draw(seen_from({0, 0.1, 2}));
   wall.picture().make_mipmaps();
   const SizePx size{wall.layout().size.height, wall.layout().size.width};
@@ -151,7 +152,7 @@ TEST_F(Golden, CurvedWallWithBezelsAsTheEyeSeesIt) {
                 .curve_deg = 60,
                 .mount = {}};
   WallRenderer wall(expand_wall(grid, {}, {}), 1, Look{Style::lit});
-  wall.show(show());
+  wall.show(pack(show()));
   const Vec3 eye(-0.6, 0.2, 2.2);
   wall.draw(seen_from(eye));
   EXPECT_EQ(complaint_about(picture_from_eye(wall, eye, {320, 180}), "eye-curved-bezels"), "");

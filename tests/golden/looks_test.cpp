@@ -53,7 +53,7 @@ Wall eight_tiles() {
 /// From all eyes, side by side.
 Image pictures_of(const Scene& scene, const Wall& wall, const Navigation& navigation = {}) {
   WallRenderer renderer(wall, 1, Look{});
-  renderer.show(scene);
+  renderer.show(pack(scene));
   Image all =
       Image::filled(kPicture_px.width * static_cast<int>(kEyes.size()), kPicture_px.height, {});
   for (std::size_t i = 0; i < kEyes.size(); ++i) {
@@ -77,7 +77,7 @@ std::string complaint_about_model(const std::vector<std::pair<std::string, std::
   const Scene scene = import_scene((folder / files.front().first).string()).scene;
   std::filesystem::remove_all(folder);
   return testing::complaint_about(
-      pictures_of(scene, screen(), place_scene(scene, Placement::fit, screen()).navigation),
+      pictures_of(scene, screen(), place_scene(pack(scene), Placement::fit, screen()).navigation),
       "look-" + name);
 }
 

@@ -49,7 +49,7 @@ struct Drawn {
 Drawn draw(const Wall& wall, const Look& look, const Scene& scene, const FrameState& state,
            const Tile* only = nullptr) {
   WallRenderer renderer(wall, 1, look);
-  renderer.show(scene);
+  renderer.show(pack(scene));
   const WallFrame frame = renderer.draw(state, only);
   return {renderer.picture().read(), frame.count.triangles - frame.count.culled_triangles};
 }
@@ -155,8 +155,8 @@ TEST_F(LevelsGl, OfATileAloneAreThoseOfTheWall) {
   const Wall wall = expand_wall(grid, {}, {});
   const FrameState state = seen_from({-0.4, 0.1, 0.8}, {0, 0, -0.5});
   WallRenderer together(wall, 1, Look{Style::lit, 1}), alone(wall, 1, Look{Style::lit, 1});
-  together.show(scan());
-  alone.show(scan());
+  together.show(pack(scan()));
+  alone.show(pack(scan()));
   const WallFrame all = together.draw(state), one = alone.draw(state, &wall.tiles[1]);
   EXPECT_EQ(one.tile_counts[1].triangles, all.tile_counts[1].triangles);
   EXPECT_LT(all.tile_counts[1].triangles, scan().triangle_count());

@@ -151,7 +151,7 @@ TEST_F(PatternGl, FollowOneAnotherAndTheMovingEye) {
 
 TEST_F(PatternGl, CounterStandsOverTheModelAndOtherPatternsInItsPlace) {
   WallRenderer wall(wall_of(), 1, Look{Style::unlit});
-  wall.show(square_scene(plain(1, 0, 0), scaled_by(5, 5, 1)));
+  wall.show(pack(square_scene(plain(1, 0, 0), scaled_by(5, 5, 1))));
   const WallFrame frame = wall.draw(state_of(Pattern::counter));
   EXPECT_GT(frame.count.draws, 0);
   EXPECT_EQ(wall.read_tile(3).at(150, 20), kRed);
@@ -164,7 +164,7 @@ TEST_F(PatternGl, CounterStandsOverTheModelAndOtherPatternsInItsPlace) {
 TEST_F(PatternGl, BlankIsBlackWhateverIsShownAndGoesAway) {
   for (const Pattern pattern : kPatterns) {
     WallRenderer wall(wall_of(), 1, Look{Style::lit});
-    wall.show(square_scene(plain(1, 1, 1), scaled_by(5, 5, 1)));
+    wall.show(pack(square_scene(plain(1, 1, 1), scaled_by(5, 5, 1))));
     FrameState state = state_of(pattern);
     wall.draw(state);
     const Image before = wall.picture().read();

@@ -37,7 +37,7 @@ Eigen::AlignedBox3d bounds_in_wall(const Scene& scene, const Navigation& navigat
 
 TEST(Placement, FitsAWideModelToFourFifthsOfTheWidth) {
   const Scene scene = scene_of({100, 100, 100}, {300, 110, 150});
-  const PlacedScene placed = place_scene(scene, Placement::fit, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::fit, kWall);
   const auto bounds = bounds_in_wall(scene, placed.navigation);
   EXPECT_NEAR(bounds.sizes().x(), 4.0, 1e-5);
   EXPECT_NEAR(bounds.sizes().z(), 1.0, 1e-5);
@@ -45,19 +45,19 @@ TEST(Placement, FitsAWideModelToFourFifthsOfTheWidth) {
 
 TEST(Placement, FitsATallModelToFourFifthsOfTheHeight) {
   const Scene scene = scene_of({0, 0, 0}, {1, 8, 1});
-  const PlacedScene placed = place_scene(scene, Placement::fit, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::fit, kWall);
   EXPECT_NEAR(bounds_in_wall(scene, placed.navigation).sizes().y(), 1.6, 1e-5);
 }
 
 TEST(Placement, FitsADeepModelToTwiceTheWidth) {
   const Scene scene = scene_of({0, 0, -1000}, {1, 1, 0});
-  const PlacedScene placed = place_scene(scene, Placement::fit, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::fit, kWall);
   EXPECT_NEAR(bounds_in_wall(scene, placed.navigation).sizes().z(), 10.0, 1e-4);
 }
 
 TEST(Placement, CentresAFittedModelWithItsFrontInTheScreenPlane) {
   const Scene scene = scene_of({-7, 3, 20}, {-3, 4, 26});
-  const PlacedScene placed = place_scene(scene, Placement::fit, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::fit, kWall);
   const auto bounds = bounds_in_wall(scene, placed.navigation);
   EXPECT_NEAR(bounds.center().x(), 0, 1e-6);
   EXPECT_NEAR(bounds.center().y(), 0, 1e-6);
@@ -67,14 +67,14 @@ TEST(Placement, CentresAFittedModelWithItsFrontInTheScreenPlane) {
 
 TEST(Placement, SaysTheSizeThatAModelWasFittedTo) {
   const Scene scene = scene_of({0, 0, 0}, {1, 8, 2});
-  const PlacedScene placed = place_scene(scene, Placement::fit, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::fit, kWall);
   EXPECT_EQ(placed.remark, "fitted to the wall: 0.2 x 1.6 x 0.4 m");
 }
 
 TEST(Placement, ShowsAModelWithAUnitInItsTrueSize) {
   Scene scene = scene_of({0, 0, 0}, {1500, 300, 200});
   scene.metres_per_unit = 0.001;
-  const PlacedScene placed = place_scene(scene, Placement::life_size, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::life_size, kWall);
   const auto bounds = bounds_in_wall(scene, placed.navigation);
   EXPECT_NEAR(bounds.sizes().x(), 1.5, 1e-6);
   EXPECT_NEAR(bounds.max().z(), 0, 1e-6);
@@ -83,7 +83,7 @@ TEST(Placement, ShowsAModelWithAUnitInItsTrueSize) {
 
 TEST(Placement, FitsALifeSizeModelWithoutAUnitAndSaysSo) {
   const Scene scene = scene_of({0, 0, 0}, {1, 8, 1});
-  const PlacedScene placed = place_scene(scene, Placement::life_size, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::life_size, kWall);
   EXPECT_NEAR(bounds_in_wall(scene, placed.navigation).sizes().y(), 1.6, 1e-5);
   EXPECT_THAT(placed.remark, HasSubstr("does not state its unit"));
   EXPECT_THAT(placed.remark, HasSubstr("fitted"));
@@ -92,7 +92,7 @@ TEST(Placement, FitsALifeSizeModelWithoutAUnitAndSaysSo) {
 TEST(Placement, LeavesAnAsIsModelWhereItsCoordinatesSay) {
   Scene scene = scene_of({-1, 5, -9}, {1, 6, -3});
   scene.metres_per_unit = 0.01;
-  const PlacedScene placed = place_scene(scene, Placement::as_is, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::as_is, kWall);
   const auto bounds = bounds_in_wall(scene, placed.navigation);
   EXPECT_EQ(bounds.min(), Vec3(-1, 5, -9));
   EXPECT_EQ(bounds.max(), Vec3(1, 6, -3));
@@ -103,7 +103,7 @@ class FlatOrTinyBox : public ::testing::TestWithParam<Eigen::Vector3f> {};
 
 TEST_P(FlatOrTinyBox, IsFittedInsideTheWallByAFiniteScale) {
   const Scene scene = scene_of({2, 2, 2}, Eigen::Vector3f(2, 2, 2) + GetParam());
-  const PlacedScene placed = place_scene(scene, Placement::fit, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::fit, kWall);
   const auto bounds = bounds_in_wall(scene, placed.navigation);
   EXPECT_TRUE(std::isfinite(placed.navigation.scale));
   EXPECT_GT(placed.navigation.scale, 0);
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Placement, FlatOrTinyBox,
 
 TEST(Placement, FitsAFlatPictureByItsLongerSides) {
   const Scene scene = scene_of({0, 0, 0}, {4, 3, 0});
-  const PlacedScene placed = place_scene(scene, Placement::fit, kWall);
+  const PlacedScene placed = place_scene(pack(scene), Placement::fit, kWall);
   EXPECT_NEAR(bounds_in_wall(scene, placed.navigation).sizes().y(), 1.6, 1e-5);
 }
 

@@ -38,8 +38,8 @@ class SceneCacheTest : public ::testing::Test {
       ++packed_;
       PackedScene scene;
       scene.sources = {source(model), source(model.parent_path() / "a.mtl")};
-      scene.imported.scene.name = name;
-      scene.imported.scene.nodes.resize(1);
+      scene.scene.name = name;
+      scene.scene.nodes.resize(1);
       write_scene_file(scene, file);
     });
   }
@@ -56,8 +56,8 @@ class SceneCacheTest : public ::testing::Test {
 
 TEST_F(SceneCacheTest, PacksAModelOnce) {
   const SceneCache cache(folder_ / "cache");
-  EXPECT_EQ(get(cache).imported.scene.name, "a.obj");
-  EXPECT_EQ(get(cache).imported.scene.name, "a.obj");
+  EXPECT_EQ(get(cache).scene.name, "a.obj");
+  EXPECT_EQ(get(cache).scene.name, "a.obj");
   EXPECT_EQ(packed_, 1);
 }
 
@@ -94,7 +94,7 @@ TEST_F(SceneCacheTest, PacksAgainWhatIsDamaged) {
   const SceneCache cache(folder_ / "cache");
   get(cache);
   std::ofstream(cache.entry_of(sha256_of_file(folder_ / "a.obj").value())) << "damage";
-  EXPECT_EQ(get(cache).imported.scene.name, "a.obj");
+  EXPECT_EQ(get(cache).scene.name, "a.obj");
   EXPECT_EQ(packed_, 2);
 }
 

@@ -20,7 +20,7 @@ class SeamsGl : public GlTest {
  protected:
   static Image drawn(const Wall& wall, Style style, const Scene& scene, const FrameState& state) {
     WallRenderer renderer(wall, 1, Look{style});
-    renderer.show(scene);
+    renderer.show(pack(scene));
     renderer.draw(state);
     return renderer.picture().read();
   }

@@ -56,7 +56,7 @@ inline Scene stalk_scene(const Material& material) {
       vertex.colour = {static_cast<std::uint8_t>(40 + 16 * ring),
                        static_cast<std::uint8_t>(20 * side), 90, 255};
       vertices.push_back(vertex);
-      scene.skin.influences.push_back(two_joints(0, 1, std::clamp(2.5f - 4 * along, 0.0f, 1.0f)));
+      scene.influences.push_back(two_joints(0, 1, std::clamp(2.5f - 4 * along, 0.0f, 1.0f)));
     }
   for (std::uint32_t ring = 0; ring + 1 < kRings; ++ring)
     for (std::uint32_t side = 0; side < kSides; ++side) {
@@ -68,7 +68,7 @@ inline Scene stalk_scene(const Material& material) {
   scene.nodes = {empty_node(Eigen::Matrix4f::Identity()), empty_node(moved_by(0, -0.8f, 0), 0),
                  empty_node(moved_by(0, 0.6f, 0), 1), empty_node(moved_by(5, 6, 7), 0)};
   scene.nodes[3].meshes = {0};
-  scene.skin.joints = {{1, moved_by(0, 0.8f, 0)}, {2, moved_by(0, 0.2f, 0)}};
+  scene.joints = {{1, moved_by(0, 0.8f, 0)}, {2, moved_by(0, 0.2f, 0)}};
   add_stalk_clips(scene);
   return scene;
 }
@@ -81,8 +81,8 @@ inline Scene posed_by_hand(Scene scene, double animation_time_s, int clip = 0) {
   for (std::size_t v = 0; v < scene.vertices.size(); ++v) {
     Eigen::Matrix4d blend = Eigen::Matrix4d::Zero();
     for (int i = 0; i < 4; ++i) {
-      const Joint& joint = scene.skin.joints[scene.skin.influences[v].joints[i]];
-      blend += scene.skin.influences[v].weights[i] / 65535.0 * nodes[joint.node].cast<double>() *
+      const Joint& joint = scene.joints[scene.influences[v].joints[i]];
+      blend += scene.influences[v].weights[i] / 65535.0 * nodes[joint.node].cast<double>() *
                joint.joint_from_mesh.cast<double>();
     }
     const Eigen::Matrix3d linear = blend.topLeftCorner<3, 3>();
@@ -108,7 +108,8 @@ inline Scene posed_by_hand(Scene scene, double animation_time_s, int clip = 0) {
           scene.vertices[scene.indices[mesh.first_index + i]].position_in_node);
   }
   for (Node& node : scene.nodes) node.parent_from_node.setIdentity();
-  scene.skin = {};
+  scene.joints.clear();
+  scene.influences.clear();
   scene.animations.clear();
   return scene;
 }

@@ -14,7 +14,7 @@ using namespace testing;
 class SkinningGl : public GlTest {
  protected:
   static Image drawn(const Scene& scene, Style style, double time_s, int clip = 0) {
-    GpuScene gpu_scene(scene, style);
+    GpuScene gpu_scene(pack(scene), style);
     gpu_scene.pose(Mat4::Identity(), time_s, clip);
     const Look look{.style = style, .samples = 1, .shadows = Shadows::crisp};
     const SceneRenderer renderer(look);
@@ -72,14 +72,14 @@ TEST_F(SkinningGl, TurnsTheirNormalMaps) {
   scene.textures = {Image::filled(2, 2, {220, 160, 220, 255})};
   scene.materials[0].texture(TextureRole::normal).image = 0;
   expect_as_by_hand(scene, Style::lit);
-  for (Joint& joint : scene.skin.joints) joint.joint_from_mesh.row(0) *= -1;
+  for (Joint& joint : scene.joints) joint.joint_from_mesh.row(0) *= -1;
   expect_as_by_hand(scene, Style::lit);
 }
 
 TEST_F(SkinningGl, ThrowsItsShadowWhereItIsPosed) {
   Scene scene = stalk_scene(lit());
   add_square(scene, lit(), moved_by(0, 0, -0.4f) * scaled_by(2, 2, 1), 0);
-  scene.skin.influences.resize(scene.vertices.size(), {{}, {kFullWeight}});
+  scene.influences.resize(scene.vertices.size(), {{}, {kFullWeight}});
   const Image rest = drawn(scene, Style::lit, 0, -1);
   for (const double t_s : {0.3, 1.0}) {
     Scene by_hand = posed_by_hand(stalk_scene(lit()), t_s);
@@ -92,14 +92,14 @@ TEST_F(SkinningGl, ThrowsItsShadowWhereItIsPosed) {
 
 TEST_F(SkinningGl, ShowsTheOutsideOfWhatJointsMirror) {
   Scene scene = stalk_scene(plain(1, 1, 1));
-  for (Joint& joint : scene.skin.joints) joint.joint_from_mesh.row(2) *= -1;
+  for (Joint& joint : scene.joints) joint.joint_from_mesh.row(2) *= -1;
   expect_as_by_hand(scene, Style::unlit);
-  GpuScene gpu_scene(scene, Style::unlit);
+  GpuScene gpu_scene(pack(scene), Style::unlit);
   EXPECT_EQ(gpu_scene.facing(gpu_scene.draws().front()), GpuScene::Facing::mirrored);
   gpu_scene.pose(Mat4(Vec4(-1, 1, 1, 1).asDiagonal()), 0);
   EXPECT_EQ(gpu_scene.facing(gpu_scene.draws().front()), GpuScene::Facing::front);
-  scene.skin.joints[0].joint_from_mesh.row(2) *= -1;
-  gpu_scene = GpuScene(scene, Style::unlit);
+  scene.joints[0].joint_from_mesh.row(2) *= -1;
+  gpu_scene = GpuScene(pack(scene), Style::unlit);
   EXPECT_EQ(gpu_scene.facing(gpu_scene.draws().front()), GpuScene::Facing::mixed);
 }
 
@@ -125,7 +125,7 @@ TEST_F(SkinningGl, DrawsSkinnedAndOtherMeshesOfOneNodeAndMaterialEachInItsWay) {
 
 TEST_F(SkinningGl, CullsByWhereTheJointsAre) {
   const Scene scene = stalk_scene(plain(1, 1, 1));
-  GpuScene gpu_scene(scene, Style::unlit);
+  GpuScene gpu_scene(pack(scene), Style::unlit);
   for (const double t_s : {0.0, 0.4, 1.1}) {
     gpu_scene.pose(Mat4::Identity(), t_s);
     Box3f bounds = gpu_scene.bounds_in_world(gpu_scene.draws().front());
@@ -136,7 +136,7 @@ TEST_F(SkinningGl, CullsByWhereTheJointsAre) {
 }
 
 TEST_F(SkinningGl, CostsNothingButItsOwnDrawsWhereNothingIsSkinned) {
-  const GpuScene scene(square_scene(plain(1, 1, 1)), Style::unlit);
+  const GpuScene scene(pack(square_scene(plain(1, 1, 1))), Style::unlit);
   EXPECT_EQ(scene.draws().front().kind & kSkinned, 0u);
   EXPECT_TRUE(scene.draws().front().joints.empty());
 }
@@ -150,7 +150,7 @@ TEST_F(SkinningGl, IsTheSameOnManyTilesAsOnOne) {
     WallRenderer renderer(wall, 1, Look{.samples = 1});
     Scene scene = stalk;
     cut_into_chunks(scene, 20);
-    renderer.show(scene);
+    renderer.show(pack(scene));
     renderer.draw(state);
     return renderer.picture().read();
   };
@@ -168,7 +168,7 @@ TEST_F(SkinningGl, IsTheSameOnManyTilesAsOnOne) {
 TEST_F(SkinningGl, PlaysTheClipThatTheStateNames) {
   const Wall screen = single_screen(2, 2, 64, 64);
   WallRenderer renderer(screen, 1, Look{Style::unlit});
-  renderer.show(stalk_scene(plain(1, 1, 1)));
+  renderer.show(pack(stalk_scene(plain(1, 1, 1))));
   const auto drawn_with = [&](int clip, double time_s) {
     renderer.draw({.eye_in_wall = {0, 0, 2}, .animation_time_s = time_s, .clip = clip});
     return renderer.picture().read();

@@ -25,10 +25,10 @@ TEST(Skinned, IsBetweenWhereItsJointsPutIt) {
 
 TEST(JointTransforms, TakeTheMeshToItsJointAndTheJointToTheWorld) {
   const Scene stalk = stalk_scene({});
-  const auto joints = joint_transforms(stalk.skin, node_transforms(stalk, 0, -1));
+  const auto joints = joint_transforms(stalk.joints, node_transforms(stalk, 0, -1));
   for (const Eigen::Matrix4f& world_from_mesh : joints)  // at rest as it was bound
     EXPECT_TRUE(world_from_mesh.isIdentity(1e-6f));
-  const auto lifted = joint_transforms(stalk.skin, node_transforms(stalk, 0.5, 1));
+  const auto lifted = joint_transforms(stalk.joints, node_transforms(stalk, 0.5, 1));
   for (const Eigen::Matrix4f& world_from_mesh : lifted)
     EXPECT_TRUE(world_from_mesh.isApprox(moved_by(0, 0.25f, 0), 1e-6f));
 }
@@ -54,13 +54,13 @@ TEST(JointBoxes, HoldEveryVertexAtAnyTime) {
   for (const Mesh& mesh : stalk.meshes) {
     const std::vector<JointBox> boxes = joint_boxes(stalk, mesh);
     for (double t_s = 0; t_s < 2; t_s += 0.05) {
-      const auto joints = joint_transforms(stalk.skin, node_transforms(stalk, t_s));
+      const auto joints = joint_transforms(stalk.joints, node_transforms(stalk, t_s));
       const Box3f bounds = around(boxes, joints);
       const Box3f with_rounding(bounds.min().array() - 1e-5f, bounds.max().array() + 1e-5f);
       for (std::uint32_t i = mesh.first_index; i < mesh.first_index + mesh.index_count; ++i) {
         const std::uint32_t vertex = stalk.indices[i];
-        ASSERT_TRUE(with_rounding.contains(skinned(stalk.vertices[vertex].position_in_node,
-                                                   stalk.skin.influences[vertex], joints)))
+        ASSERT_TRUE(with_rounding.contains(
+            skinned(stalk.vertices[vertex].position_in_node, stalk.influences[vertex], joints)))
             << t_s;
       }
     }
@@ -80,7 +80,7 @@ TEST(JointBoxes, HoldEveryVertexHoweverWildTheJoints) {
     const Box3f with_rounding(bounds.min().array() - 1e-5f, bounds.max().array() + 1e-5f);
     for (std::size_t v = 0; v < stalk.vertices.size(); ++v)
       ASSERT_TRUE(with_rounding.contains(
-          skinned(stalk.vertices[v].position_in_node, stalk.skin.influences[v], joints)));
+          skinned(stalk.vertices[v].position_in_node, stalk.influences[v], joints)));
   }
 }
 
@@ -97,7 +97,7 @@ TEST(Chunks, KeepJointsWithTheirVertices) {
   const Scene whole = stalk_scene({});
   Scene cut = whole;
   cut_into_chunks(cut, 20);
-  ASSERT_EQ(cut.skin.influences.size(), cut.vertices.size());
+  ASSERT_EQ(cut.influences.size(), cut.vertices.size());
   for (const Mesh& mesh : cut.meshes) EXPECT_TRUE(mesh.skinned);
   for (std::size_t v = 0; v < cut.vertices.size(); ++v) {
     const auto same = std::ranges::find_if(whole.vertices, [&](const Vertex& vertex) {
@@ -106,7 +106,7 @@ TEST(Chunks, KeepJointsWithTheirVertices) {
     });
     ASSERT_NE(same, whole.vertices.end());
     const auto at = static_cast<std::size_t>(same - whole.vertices.begin());
-    EXPECT_EQ(cut.skin.influences[v].weights, whole.skin.influences[at].weights);
+    EXPECT_EQ(cut.influences[v].weights, whole.influences[at].weights);
   }
 }
 

@@ -51,7 +51,7 @@ Scene numbered_squares() {
 
 TEST_F(WallRendererGl, DrawsEveryTileAtItsPlace) {
   WallRenderer wall(small_wall(), 1, Look{Style::unlit});
-  wall.show(numbered_squares());
+  wall.show(pack(numbered_squares()));
   const WallFrame frame = wall.draw(seen_from({0.7, 0.2, 1.1}));
   EXPECT_THAT(frame.black_tiles, IsEmpty());
   for (std::size_t index = 0; index < 6; ++index) {
@@ -65,7 +65,7 @@ TEST_F(WallRendererGl, DrawsEveryTileAtItsPlace) {
 
 TEST_F(WallRendererGl, LeavesBezelsBlack) {
   WallRenderer wall(small_wall(100), 1, Look{Style::unlit});
-  wall.show(square_scene(plain(1, 1, 1), scaled_by(5, 5, 1)));
+  wall.show(pack(square_scene(plain(1, 1, 1), scaled_by(5, 5, 1))));
   wall.draw({});
   const Image whole = wall.picture().read();
   EXPECT_EQ(whole.width_px, 64);
@@ -78,7 +78,7 @@ TEST_F(WallRendererGl, LeavesBezelsBlack) {
 TEST_F(WallRendererGl, DrawsOneTileAlone) {
   const Wall geometry = small_wall();
   WallRenderer wall(geometry, 1, Look{Style::unlit});
-  wall.show(numbered_squares());
+  wall.show(pack(numbered_squares()));
   wall.draw({}, geometry.find("tile-1-1"));
   EXPECT_THAT(wall.read_tile(4).pixels, Each(Rgba8{14, 0, 0, 255}));
   EXPECT_THAT(wall.read_tile(3).pixels, Each(kBlack));
@@ -89,7 +89,7 @@ TEST_F(WallRendererGl, DrawsTilesOfSeveralPixelSizes) {
   Wall geometry = small_wall();
   geometry.tiles[5].width_px = 31;
   WallRenderer wall(geometry, 1, Look{Style::unlit});
-  wall.show(numbered_squares());
+  wall.show(pack(numbered_squares()));
   wall.draw({});
   EXPECT_EQ(wall.read_tile(5).width_px, 31);
   EXPECT_THAT(wall.read_tile(5).pixels, Each(Rgba8{15, 0, 0, 255}));
@@ -101,7 +101,7 @@ TEST_F(WallRendererGl, BlackensATileWhoseBackTheEyeSeesAndNamesIt) {
   // tile-0-0 turned about its left edge by a quarter: it faces right.
   geometry.tiles[0].corners = {{-1.5, -1, 0}, {-1.5, -1, -1}, {-1.5, 0, 0}};
   WallRenderer wall(geometry, 1, Look{Style::lit});
-  wall.show(square_scene(plain(1, 1, 1), moved_by(0, 0, -1) * scaled_by(50, 50, 1)));
+  wall.show(pack(square_scene(plain(1, 1, 1), moved_by(0, 0, -1) * scaled_by(50, 50, 1))));
   const WallFrame from_left = wall.draw(seen_from({-2.5, 0, 2}));
   const Image black = wall.read_tile(0);
   const WallFrame from_right = wall.draw(seen_from({1, 0, 2}));
@@ -113,7 +113,7 @@ TEST_F(WallRendererGl, BlackensATileWhoseBackTheEyeSeesAndNamesIt) {
 
 TEST_F(WallRendererGl, BlackensAllTilesForAnEyeBehindTheWallAndComesBack) {
   WallRenderer wall(small_wall(), 1, Look{Style::unlit});
-  wall.show(square_scene(plain(1, 1, 1), scaled_by(5, 5, 1)));
+  wall.show(pack(square_scene(plain(1, 1, 1), scaled_by(5, 5, 1))));
   wall.draw({});
   EXPECT_EQ(wall.draw(seen_from({0, 0, -1})).black_tiles.size(), 6u);
   EXPECT_THAT(wall.picture().read().pixels, Each(kBlack));
@@ -129,16 +129,16 @@ TEST_F(WallRendererGl, DrawsNothingBeforeASceneIsShown) {
 
 TEST_F(WallRendererGl, ReplacesTheScene) {
   WallRenderer wall(small_wall(), 1, Look{Style::unlit});
-  wall.show(square_scene(plain(1, 0, 0), scaled_by(5, 5, 1)));
+  wall.show(pack(square_scene(plain(1, 0, 0), scaled_by(5, 5, 1))));
   wall.draw({});
-  wall.show(square_scene(plain(0, 0, 1), scaled_by(5, 5, 1)));
+  wall.show(pack(square_scene(plain(0, 0, 1), scaled_by(5, 5, 1))));
   wall.draw({});
   EXPECT_THAT(wall.picture().read().pixels, Each(kBlue));
 }
 
 TEST_F(WallRendererGl, FollowsNavigation) {
   WallRenderer wall(small_wall(), 1, Look{Style::unlit});
-  wall.show(square_scene(plain(1, 1, 1)));
+  wall.show(pack(square_scene(plain(1, 1, 1))));
   FrameState state = seen_from({0, 0, 2});
   state.navigation.scale = 0.5;
   state.navigation.wall_from_scene.translation = {-1, 0.5, 0};
@@ -153,7 +153,7 @@ TEST_F(WallRendererGl, DrawsTheSameBitsAgain) {
   WallRenderer wall(small_wall(), 3, Look{Style::lit});
   Material lit = plain(.6f, .3f, .2f);
   lit.unlit = false;
-  wall.show(cube_scene(lit));
+  wall.show(pack(cube_scene(lit)));
   FrameState state = seen_from({0.3, 0.2, 1.7});
   state.navigation.wall_from_scene = {Quat(Eigen::AngleAxisd(.7, Vec3(1, 2, 3).normalized())),
                                       {0.1, 0, -1}};
@@ -177,7 +177,7 @@ TEST_F(WallRendererGl, RefusesAWallThatIsTooLargeForTheGpu) {
 
 TEST_F(WallRendererGl, ShowsTheEyeTheWallsPicture) {
   WallRenderer wall(small_wall(), 1, Look{Style::unlit});
-  wall.show(numbered_squares());
+  wall.show(pack(numbered_squares()));
   const Vec3 eye(0, 0, 3);
   wall.draw(seen_from(eye));
   const Image seen = picture_from_eye(wall, eye, {300, 200});
@@ -191,7 +191,7 @@ class EyesOfNoUse : public WallRendererGl, public ::testing::WithParamInterface<
 
 TEST_P(EyesOfNoUse, StillGiveAPicture) {
   WallRenderer wall(small_wall(), 1, Look{Style::unlit});
-  wall.show(numbered_squares());
+  wall.show(pack(numbered_squares()));
   wall.draw(seen_from(GetParam()));
   EXPECT_EQ(picture_from_eye(wall, GetParam(), {30, 20}).width_px, 30);
 }

@@ -63,7 +63,7 @@ class ImportSkin : public ::testing::Test {
     std::map<int, int> found;
     for (std::size_t i = 0; i < 4; ++i)
       if (influences.weights[i] > 0)
-        found[skin_.joints[influences.joints[i]].node] += influences.weights[i];
+        found[joints_[influences.joints[i]].node] += influences.weights[i];
     return found;
   }
   std::vector<std::string> warnings() const {
@@ -73,8 +73,8 @@ class ImportSkin : public ::testing::Test {
   }
 
   std::map<std::string, int> nodes_ = {{"a", 1}, {"b", 2}, {"c", 3}, {"d", 4}, {"e", 5}, {"f", 6}};
-  Skin skin_;
-  SkinImporter importer_{nodes_, skin_};
+  std::vector<Joint> joints_;
+  SkinImporter importer_{nodes_, joints_};
 };
 
 TEST_F(ImportSkin, NormalisesWeightsToTheWholeAndPutsTheStrongestFirst) {
@@ -138,7 +138,7 @@ TEST_F(ImportSkin, LeavesOutBonesThatNameNoNodeOrStandNowhere) {
 TEST_F(ImportSkin, HangsVerticesThatNoBoneMovesOnTheMeshsNode) {
   const auto found = read(BonyMesh(2).bone("a", {{0, 1}}, 5));
   EXPECT_EQ(pulls(found.at(1)), (std::map<int, int>{{kMeshNode, kFullWeight}}));
-  EXPECT_TRUE(skin_.joints[found[1].joints[0]].joint_from_mesh.isIdentity());
+  EXPECT_TRUE(joints_[found[1].joints[0]].joint_from_mesh.isIdentity());
 }
 
 TEST_F(ImportSkin, IsNoneWhereNoBoneMovesAnything) {
@@ -149,28 +149,28 @@ TEST_F(ImportSkin, IsNoneWhereNoBoneMovesAnything) {
 TEST_F(ImportSkin, SharesTheJointsOfMeshesThatAreBoundAlike) {
   read(BonyMesh(1).bone("a", {{0, 1}}, 2).bone("b", {{0, 1}}, 3));
   read(BonyMesh(1).bone("b", {{0, 1}}, 3).bone("a", {{0, 1}}, 4));
-  ASSERT_EQ(skin_.joints.size(), 3u);
-  EXPECT_EQ(skin_.joints[1].node, 2);
-  EXPECT_EQ(skin_.joints[1].joint_from_mesh(0, 3), 3);
+  ASSERT_EQ(joints_.size(), 3u);
+  EXPECT_EQ(joints_[1].node, 2);
+  EXPECT_EQ(joints_[1].joint_from_mesh(0, 3), 3);
 }
 
 TEST_F(ImportSkin, LeavesAMeshStillForWhichThereIsNoRoom) {
-  skin_.joints.resize(kMaxJoints - 1);
+  joints_.resize(kMaxJoints - 1);
   EXPECT_EQ(read(BonyMesh(1).bone("a", {{0, 1}})).size(), 1u);
   EXPECT_THAT(read(BonyMesh(1).bone("b", {{0, 1}})), IsEmpty());
-  EXPECT_EQ(skin_.joints.size(), kMaxJoints);
+  EXPECT_EQ(joints_.size(), kMaxJoints);
   EXPECT_THAT(warnings(), ElementsAre(HasSubstr("1 meshes stand still")));
 }
 
 /// Of all vertices of skinned meshes at a time of a clip.
 Box3f posed_bounds(const Scene& scene, double time_s, int clip = 0) {
-  const auto joints = joint_transforms(scene.skin, node_transforms(scene, time_s, clip));
+  const auto joints = joint_transforms(scene.joints, node_transforms(scene, time_s, clip));
   Box3f bounds;
   for (const Mesh& mesh : scene.meshes)
     for (std::uint32_t i = 0; mesh.skinned && i < mesh.index_count; ++i) {
       const std::uint32_t vertex = scene.indices[mesh.first_index + i];
       bounds.extend(
-          skinned(scene.vertices[vertex].position_in_node, scene.skin.influences[vertex], joints));
+          skinned(scene.vertices[vertex].position_in_node, scene.influences[vertex], joints));
     }
   return bounds;
 }
@@ -182,7 +182,7 @@ TEST(SkinnedModels, GltfsSimpleSkinTurnsItsUpperHalf) {
   const Scene& scene = result.scene;
   EXPECT_THAT(result.warnings, IsEmpty());
   ASSERT_TRUE(scene.meshes.at(0).skinned);
-  EXPECT_EQ(scene.skin.influences.size(), scene.vertices.size());
+  EXPECT_EQ(scene.influences.size(), scene.vertices.size());
   EXPECT_NEAR(posed_bounds(scene, 0).max().y(), 2, 1e-4);  // straight up
   const Box3f aside = posed_bounds(scene, 1.0), other = posed_bounds(scene, 4.0);
   EXPECT_NEAR(aside.max().y(), 1.5, 1e-3);  // a half of it lies on its side
@@ -196,7 +196,7 @@ TEST(SkinnedModels, OfSeveralFormatsMoveAndStayInOnePiece) {
   for (const char* file : {"X/Testwuson.X", "X/BCN_Epileptic.X", "FBX/huesitos.fbx",
                            "FBX/animation_with_skeleton.fbx", "Collada/box_nested_animation.dae"}) {
     const Scene scene = import_scene(test::test_model(file)).scene;
-    ASSERT_FALSE(scene.skin.influences.empty()) << file;
+    ASSERT_FALSE(scene.influences.empty()) << file;
     ASSERT_FALSE(scene.animations.empty()) << file;
     const Box3f start = posed_bounds(scene, 0);
     bool moves = false;
@@ -226,12 +226,12 @@ TEST(SkinnedModels, HaveWholeWeightsAndKnownJointsThroughout) {
   for (const char* file : {"X/Testwuson.X", "X/anim_test.x", "FBX/animation_with_skeleton.fbx",
                            "MD5/SimpleCube.md5mesh"}) {
     const Scene scene = import_scene(test::test_model(file)).scene;
-    ASSERT_EQ(scene.skin.influences.size(), scene.vertices.size()) << file;
-    for (const Influences& influences : scene.skin.influences) {
+    ASSERT_EQ(scene.influences.size(), scene.vertices.size()) << file;
+    for (const Influences& influences : scene.influences) {
       int sum = 0;
       for (std::size_t i = 0; i < 4; ++i) {
         sum += influences.weights[i];
-        ASSERT_LT(influences.joints[i], scene.skin.joints.size());
+        ASSERT_LT(influences.joints[i], scene.joints.size());
       }
       ASSERT_EQ(sum, kFullWeight);
     }
