@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -15,6 +16,8 @@
 #include "app/wall_console.h"
 #include "cluster/console.h"
 #include "cluster/dds.h"
+#include "cluster/launch/host_plan.h"
+#include "cluster/launch/hosts.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/eye_picture.h"
@@ -46,21 +49,66 @@ CapturedFrame ask_for_frame(const CaptureCommand& command, const Site& site) {
   return *frame;
 }
 
-/// What has come of the frame until then.
+/// Of those tiles that have none yet.
+void read_pictures(const std::string& folder, const std::vector<std::string>& tiles,
+                   const CapturedFrame& frame, Pictures& pictures) {
+  for (const std::string& tile : tiles) {
+    const std::string file = folder + "/" + capture_file(frame, tile);
+    if (!pictures.contains(tile) && std::filesystem::exists(file)) pictures[tile] = read_png(file);
+  }
+}
+
+/// A wall over hosts names its master's; a tile without a host of its own runs here.
+bool is_elsewhere(const Tile& tile, const ClusterConfig& cluster) {
+  const std::string own = host_name();
+  return !cluster.master.empty() && own != tile.host && !own.starts_with(tile.host + ".");
+}
+
+/// What this machine's tiles have kept until then, or before the others have to be waited for.
 Pictures collect(const CaptureCommand& command, const Site& site, const CapturedFrame& frame) {
-  const std::string folder = capture_folder(site.cluster) + "/";
+  const std::string folder = capture_folder(site.cluster);
   const Time end = std::chrono::steady_clock::now() + from_seconds(command.timeout_s);
   Pictures pictures;
+  const auto has_come = [&](const std::string& tile) {
+    return pictures.contains(tile) || is_elsewhere(*site.wall.find(tile), site.cluster);
+  };
   for (;;) {
-    for (const std::string& tile : command.tiles) {
-      const std::string file = folder + capture_file(frame, tile);
-      if (!pictures.contains(tile) && std::filesystem::exists(file))
-        pictures[tile] = read_png(file);
-    }
-    if (pictures.size() == command.tiles.size() || std::chrono::steady_clock::now() > end)
+    read_pictures(folder, command.tiles, frame, pictures);
+    if (std::ranges::all_of(command.tiles, has_come) || std::chrono::steady_clock::now() > end)
       return pictures;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+}
+
+/// The hosts whose tiles are missing, with these tiles alone.
+std::vector<HostPlan> hosts_of_missing(const CaptureCommand& command, const Site& site,
+                                       const Pictures& pictures) {
+  std::vector<HostPlan> plans = host_plans(site);
+  for (HostPlan& plan : plans)
+    std::erase_if(plan.tiles, [&](const std::string& tile) {
+      return pictures.contains(tile) ||
+             std::ranges::find(command.tiles, tile) == command.tiles.end();
+    });
+  std::erase_if(plans, [](const HostPlan& plan) { return plan.tiles.empty(); });
+  return plans;
+}
+
+/// Brings what the hosts of the other tiles keep, over ssh.
+void fetch(const CaptureCommand& command, const Site& site, const CapturedFrame& frame,
+           Pictures& pictures) {
+  const std::vector<HostPlan> plans = hosts_of_missing(command, site, pictures);
+  if (plans.empty()) return;
+  const int patience_s = static_cast<int>(std::ceil(command.timeout_s));
+  const std::vector<HostReport> found = on_hosts(
+      names_of(plans),
+      kept_script(plans, capture_folder_name(site.cluster), capture_prefix(frame), patience_s));
+  std::vector<HostPaths> wanted;
+  for (const HostReport& report : found)
+    if (!report.failure && !report.lines.empty()) wanted.push_back({report.host, report.lines});
+  const TemporaryFolder folder;
+  const std::vector<HostReport> copied = copy_from_hosts(wanted, folder.path());
+  for (const auto* reports : {&found, &copied}) std::fputs(failures_of(*reports).c_str(), stderr);
+  read_pictures(folder.path(), command.tiles, frame, pictures);
 }
 
 void save(const Image& image, const std::string& file) {
@@ -125,15 +173,15 @@ int capture(CaptureCommand command) {
   const bool whole = command.tiles.empty();
   if (whole) command.tiles = tile_names(site.wall);
   const CapturedFrame frame = ask_for_frame(command, site);
-  const Pictures pictures = collect(command, site, frame);
+  Pictures pictures = collect(command, site, frame);
+  if (!site.cluster.master.empty()) fetch(command, site, frame, pictures);
   make_folder(command.out);
   if (!command.wall_picture)
     for (const auto& [tile, picture] : pictures) save(picture, command.out + "/" + tile + ".png");
   if (whole && !pictures.empty()) save_wall(command, site, frame, pictures);
   for (const std::string& tile : command.tiles)
     if (!pictures.contains(tile))
-      log_warning(tile, fmt::format("gave no picture of frame {}: does it run on this machine? "
-                                    "(vindu status)",
+      log_warning(tile, fmt::format("gave no picture of frame {}: does it run? (vindu status)",
                                     frame.number));
   return pictures.size() == command.tiles.size() ? 0 : 1;
 }
@@ -155,7 +203,8 @@ void add_capture(CLI::App& parent, Action& chosen) {
       ->type_name("DIR");
   app->footer(
       "\nWrites tile-X-Y.png for each tile, wall.png (the whole wall as one picture) and eye.png\n"
-      "(what the viewer sees), all of one frame. Tiles of this machine alone are found.\n"
+      "(what the viewer sees), all of one frame. What other hosts' tiles keep comes over ssh, by\n"
+      "clush and rsync, where the wall file names a [cluster] master.\n"
       "\nExamples:\n"
       "  vindu capture --wall wall.toml --out pictures\n"
       "  vindu capture --tile tile-3-1\n");

@@ -75,13 +75,21 @@ std::optional<CapturedFrame> captured_frame_from(const std::string& text) {
 std::string capture_folder(const ClusterConfig& cluster) {
   std::string user = runtime_folder();
   if (user.empty()) make_private(user = fmt::format("/tmp/vindu-{}", geteuid()));
-  const std::string folder = fmt::format("{}/vindu-{}-{}", user, cluster.domain, cluster.name);
+  const std::string folder = user + "/" + capture_folder_name(cluster);
   make_private(folder);
   return folder;
 }
 
+std::string capture_folder_name(const ClusterConfig& cluster) {
+  return fmt::format("vindu-{}-{}", cluster.domain, cluster.name);
+}
+
+std::string capture_prefix(const CapturedFrame& frame) {
+  return fmt::format("{:020}-{:012}-", frame.epoch, frame.number);
+}
+
 std::string capture_file(const CapturedFrame& frame, const std::string& tile) {
-  return fmt::format("{:020}-{:012}-{}.png", frame.epoch, frame.number, tile);
+  return capture_prefix(frame) + tile + ".png";
 }
 
 void CaptureWriter::keep(const ClusterConfig& cluster, const CapturedFrame& frame,

@@ -29,7 +29,11 @@ std::optional<CapturedFrame> captured_frame_from(const std::string& text);
 /// not yet. Nothing of its path comes over the network. Throws Error where it is somebody else's.
 std::string capture_folder(const ClusterConfig& cluster);
 
-/// Of a tile's picture in that folder.
+/// Of that folder, in the user's runtime folder.
+std::string capture_folder_name(const ClusterConfig& cluster);
+
+/// What the names of all pictures of a frame begin with, and a tile's whole name.
+std::string capture_prefix(const CapturedFrame& frame);
 std::string capture_file(const CapturedFrame& frame, const std::string& tile);
 
 /// Writes pictures beside the frames that go on; the last few of a tile stay. A picture that cannot

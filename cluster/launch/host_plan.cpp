@@ -59,16 +59,21 @@ std::string own_part(const std::vector<HostPlan>& hosts) {
          "esac\n";
 }
 
-constexpr const char* kBegin = R"sh(set -u
+constexpr const char* kFail = R"sh(set -u
 fail() {
   printf '@fail\t%s\t%s\t%s\n' "$1" "$(printf '%s' "$2" | tr '\n\t' '  ')" "$3"
   exit 1
 }
-export XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-/run/user/$(id -u)}"
+)sh";
+
+constexpr const char* kSession =
+    R"sh(export XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-/run/user/$(id -u)}"
 session=$(systemctl --user show-environment 2>&1) || fail systemd \
   "no systemd of the user: $session" \
   'log the user in at its screen (auto-login); without a screen: loginctl enable-linger'
 )sh";
+
+std::string begin() { return std::string(kFail) + kSession; }
 
 constexpr const char* kCheckFiles = R"sh(vindu=$HOME/.vindu/bin/vindu
 [ -x "$vindu" ] || fail files 'there is no vindu' 'bring it: vindu deploy'
@@ -121,7 +126,7 @@ echo @done
 
 /// The beginning of a script for a host that has what was deployed.
 std::string checked_host(const std::vector<HostPlan>& hosts, const HostRequest& request) {
-  return kBegin + own_part(hosts) + "program_sha256=" + shell_word(request.program_sha256) +
+  return begin() + own_part(hosts) + "program_sha256=" + shell_word(request.program_sha256) +
          " wall_sha256=" + shell_word(request.wall_sha256) + " model=" + shell_word(request.model) +
          "\n" + kCheckFiles;
 }
@@ -214,7 +219,7 @@ std::string doctor_script(const std::vector<HostPlan>& hosts, const HostRequest&
 }
 
 std::string stop_script() {
-  return std::string(kBegin) +
+  return begin() +
          "said=$(systemctl --user stop vindu-tile.service vindu-master.service 2>&1)\n"
          "for unit in vindu-tile vindu-master; do\n"
          "  ! systemctl --user is-active --quiet $unit || fail stop \"$said\" "
@@ -222,14 +227,36 @@ std::string stop_script() {
          "done\necho @done\n";
 }
 
-std::string restart_script() { return std::string(kBegin) + kUnits + kStart; }
+std::string restart_script() { return begin() + kUnits + kStart; }
 
 std::string log_script(int lines) {
-  return std::string(kBegin) +
+  return begin() +
          fmt::format(
              "journalctl --user -u vindu-tile -u vindu-master -n {} --no-pager -o short-iso\n"
              "echo @done\n",
              lines);
+}
+
+// A tile's runtime folder is its session's, which an ssh session need not know of.
+std::string kept_script(const std::vector<HostPlan>& hosts, const std::string& folder,
+                        const std::string& prefix, int seconds) {
+  return kFail + own_part(hosts) + "folder=" + shell_word(folder) +
+         " prefix=" + shell_word(prefix) + fmt::format(" tries={}\n", 10 * seconds) + R"sh(
+found() {
+  for runtime in "${XDG_RUNTIME_DIR:-}" "/run/user/$(id -u)" "/tmp/vindu-$(id -u)"; do
+    file=$runtime/$folder/$prefix$1.png
+    [ -f "$file" ] && printf '%s\n' "$file" && return
+  done
+  return 1
+}
+for tile in $tiles; do
+  until found "$tile" || [ $tries -le 0 ]; do
+    tries=$((tries - 1))
+    sleep 0.1
+  done
+done
+echo @done
+)sh";
 }
 
 std::string slurm_script(const std::vector<HostPlan>& hosts, const HostRequest& request) {

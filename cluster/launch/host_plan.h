@@ -50,6 +50,10 @@ std::string stop_script();
 /// Of what was launched on the host, whether it runs or not.
 std::string restart_script();
 std::string log_script(int lines);
+/// The paths of what vindu tile kept of a frame (app/captures.h), a line for each of the host's
+/// tiles: of `folder`/`prefix`TILE.png, where each of them was found within so many seconds.
+std::string kept_script(const std::vector<HostPlan>& hosts, const std::string& folder,
+                        const std::string& prefix, int seconds);
 
 /// For sbatch --wrap: one step over all hosts, each starting again what dies.
 std::string slurm_script(const std::vector<HostPlan>& hosts, const HostRequest& request);

@@ -90,6 +90,27 @@ std::map<std::string, ProgramResult> listen(ChildProcesses& children) {
   throw Error({"is not installed here", name, "apt-get install " + package});
 }
 
+/// By rsync, of each host its own command.
+std::vector<HostReport> copied(const std::map<std::string, std::vector<std::string>>& words) {
+  ChildProcesses children;
+  for (const auto& [host, command] : words) children.start(host, command);
+  auto results = listen(children);
+  std::vector<HostReport> reports;
+  for (const auto& [host, command] : words) {
+    const ProgramResult& rsync = results[host];
+    if (rsync.exit_code == kNoProgram) no_program("rsync", "rsync");
+    HostReport& report = reports.emplace_back(HostReport{.host = host});
+    if (rsync.exit_code == 0) continue;
+    const std::string reason = rsync.err.empty() ? "it says nothing" : rsync.err.front();
+    report.failure = {"copy", reason,
+                      reason.find("rsync: command not found") != std::string::npos ||
+                              reason.find("rsync: not found") != std::string::npos
+                          ? "there: apt-get install rsync"
+                          : ssh_remedy(reason)};
+  }
+  return reports;
+}
+
 }  // namespace
 
 ProgramResult run_program(const std::vector<std::string>& words) {
@@ -129,23 +150,25 @@ std::vector<std::string> rsync_words(const HostFiles& files) {
 }
 
 std::vector<HostReport> copy_to_hosts(const std::vector<HostFiles>& hosts) {
-  ChildProcesses children;
-  for (const HostFiles& files : hosts) children.start(files.host, rsync_words(files));
-  auto results = listen(children);
-  std::vector<HostReport> reports;
-  for (const auto& [host, folders] : hosts) {
-    const ProgramResult& rsync = results[host];
-    if (rsync.exit_code == kNoProgram) no_program("rsync", "rsync");
-    HostReport& report = reports.emplace_back(HostReport{.host = host});
-    if (rsync.exit_code == 0) continue;
-    const std::string reason = rsync.err.empty() ? "it says nothing" : rsync.err.front();
-    report.failure = {"copy", reason,
-                      reason.find("rsync: command not found") != std::string::npos ||
-                              reason.find("rsync: not found") != std::string::npos
-                          ? "there: apt-get install rsync"
-                          : ssh_remedy(reason)};
-  }
-  return reports;
+  std::map<std::string, std::vector<std::string>> words;
+  for (const HostFiles& files : hosts) words[files.host] = rsync_words(files);
+  return copied(words);
+}
+
+// Paths reach no shell there (--secluded-args).
+std::vector<std::string> rsync_words(const HostPaths& paths, const std::string& folder) {
+  std::vector<std::string> words = {
+      "rsync", "--secluded-args", "--times", "--rsh", std::string("ssh ") + kSshOptions, "--"};
+  for (const std::string& file : paths.files) words.push_back(paths.host + ":" + file);
+  words.push_back(folder + "/");
+  return words;
+}
+
+std::vector<HostReport> copy_from_hosts(const std::vector<HostPaths>& hosts,
+                                        const std::string& folder) {
+  std::map<std::string, std::vector<std::string>> words;
+  for (const HostPaths& paths : hosts) words[paths.host] = rsync_words(paths, folder);
+  return copied(words);
 }
 
 std::string failures_of(const std::vector<HostReport>& reports) {

@@ -55,6 +55,17 @@ struct HostFiles {
 std::vector<HostReport> copy_to_hosts(const std::vector<HostFiles>& hosts);
 std::vector<std::string> rsync_words(const HostFiles& files);
 
+/// Files of a host, by absolute paths.
+struct HostPaths {
+  std::string host;
+  std::vector<std::string> files;
+};
+
+/// The other way: copies them into a folder here, all hosts at once.
+std::vector<HostReport> copy_from_hosts(const std::vector<HostPaths>& hosts,
+                                        const std::string& folder);
+std::vector<std::string> rsync_words(const HostPaths& paths, const std::string& folder);
+
 /// A line for each kind of failure: "tile-[0-3]-0: ssh: reason; remedy". Empty when all is well.
 std::string failures_of(const std::vector<HostReport>& reports);
 

@@ -87,7 +87,8 @@ TEST(Scripts, AreGoodShell) {
   const auto plans = host_plans(site_of("tile-{x}-{y}"));
   for (const std::string& script :
        {start_script(plans, request()), stop_script(), restart_script(), log_script(5),
-        doctor_script(plans, request()), slurm_script(plans, request())}) {
+        doctor_script(plans, request()), slurm_script(plans, request()),
+        kept_script(plans, "vindu-7-wall", "00-", 5)}) {
     const ProgramResult shell = run_program({"sh", "-n", "-c", script});
     EXPECT_EQ(shell.exit_code, 0) << script;
     EXPECT_THAT(shell.err, SizeIs(0));
@@ -119,6 +120,26 @@ TEST(Doctor, RunsOnTheScreenOfTheHostAndMayFindWhatIsBad) {
 TEST(Doctor, ThatCrashesIsNotTakenForOneThatFoundNothing) {
   EXPECT_THAT(doctor_that_ends_with(139),
               ::testing::ElementsAre("on :7", HasSubstr("@fail\tdoctor\tit ended with 139")));
+}
+
+/// On a host named tile-1-0 whose runtime folder holds the picture, or does not.
+std::vector<std::string> kept_where(const std::string& made) {
+  const std::string stand_ins = R"(home=$(mktemp -d); mkdir "$home/it's a wall"
+printf '#!/bin/sh\necho tile-1-0\n' > "$home/uname"; chmod +x "$home/uname"
+export XDG_RUNTIME_DIR="$home" PATH="$home:$PATH"
+)";
+  const auto plans = host_plans(site_of("tile-{x}-{y}"));
+  return run_program({"sh", "-c",
+                      stand_ins + ": > \"$home/it's a wall/" + made + "\"\n" +
+                          kept_script(plans, "it's a wall", "0042-", 0)})
+      .out;
+}
+
+TEST(Kept, AreThePathsOfTheHostsOwnTiles) {
+  EXPECT_THAT(
+      kept_where("0042-tile-1-0.png"),
+      ::testing::ElementsAre(::testing::EndsWith("/it's a wall/0042-tile-1-0.png"), "@done"));
+  EXPECT_THAT(kept_where("0041-tile-1-0.png"), ::testing::ElementsAre("@done"));
 }
 
 TEST(Slurm, RunsOnEachHostWhatIsItsOwnWithTheArgumentsAsTheyAre) {

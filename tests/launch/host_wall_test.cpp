@@ -1,6 +1,6 @@
 // A wall of real processes over hosts (network namespaces of this machine), as its admin runs it:
-// vindu keys, deploy, launch, status, stop; by systemd over ssh, and by Slurm. Which frame a tile
-// showed is read from its pixels. VINDU_HOSTS=7x4 makes it that large (two tiles without).
+// vindu keys, deploy, launch, capture, status, stop; by systemd over ssh, and by Slurm. Which frame
+// a tile showed is read from its pixels. VINDU_HOSTS=7x4 makes it that large (two tiles without).
 // Needs root.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,9 +9,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "core/clock.h"
+#include "renderer/frame_counter.h"
+#include "renderer/image.h"
 #include "tests/launch/namespace_hosts.h"
 #include "tests/wall/children.h"
 #include "tests/wall/whole_frames.h"
@@ -20,8 +23,10 @@ namespace vindu::testing {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Ne;
 using ::testing::SizeIs;
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
@@ -141,6 +146,16 @@ class HostWall : public ::testing::Test {
     EXPECT_THAT(deployed.out, Contains(fmt::format("{0} of {0} hosts have it", tiles_.size() + 1)))
         << ::testing::PrintToString(deployed.err);
   }
+  /// Of one frame, by its number in the pixels, wherever the tiles' hosts are.
+  void expect_pictures() const {
+    const fs::path folder = hosts_.folder() / "pictures";
+    expect_done({"capture", "--timeout", "60", "--out", folder});
+    std::set<std::optional<std::uint64_t>> numbers;
+    for (const std::string& tile : tiles_)
+      numbers.insert(read_frame_counter(read_png(folder / (tile + ".png"))));
+    EXPECT_THAT(numbers, ElementsAre(Ne(std::nullopt)));
+    EXPECT_TRUE(fs::exists(folder / "wall.png") && fs::exists(folder / "eye.png"));
+  }
   /// One tile's process dies; its host starts it again.
   void lose_a_tile() {
     const std::string& tile = tiles_.back();
@@ -204,6 +219,7 @@ TEST_F(HostWall, OfSystemdUnitsOutlivesItsLauncherAndTakesADeadTileIn) {
   const auto first = await_whole(clock_.now());
   ASSERT_TRUE(first) << "it is never whole";
   say("launch to the first whole frame", first->last - began);
+  expect_pictures();
   lose_a_tile();
   expect_status_is_good();
   const ProgramResult stopped = ask({"stop"});
@@ -230,6 +246,7 @@ TEST_F(SlurmWall, OfOneJobTakesADeadTileInAndEndsWithIt) {
   const auto first = await_whole(began);
   ASSERT_TRUE(first) << "it is never whole";
   say("launch to the first whole frame", first->last - began);
+  expect_pictures();
   lose_a_tile();
   expect_status_is_good();
   expect_done({"stop", "--engine", "slurm"});

@@ -62,6 +62,11 @@ TEST(CommandLines, NameHostsFoldedAndAskNothing) {
   const std::vector<std::string> words = rsync_words({"tile-0-0", {"/tmp/a b", "/tmp/own"}});
   EXPECT_THAT(std::vector(words.end() - 4, words.end()),
               ElementsAre("--", "/tmp/a b/", "/tmp/own/", "tile-0-0:.vindu/"));
+  const HostPaths paths{"tile-0-0", {"/run/a b.png", "/run/c.png"}};
+  const std::vector<std::string> back = rsync_words(paths, "/tmp/here");
+  EXPECT_THAT(std::vector(back.end() - 4, back.end()),
+              ElementsAre("--", "tile-0-0:/run/a b.png", "tile-0-0:/run/c.png", "/tmp/here/"));
+  EXPECT_THAT(back, ::testing::Contains("--secluded-args"));
 }
 
 TEST(Programs, ThatAreNotThereSaySo) {
