@@ -21,6 +21,7 @@ void add_wiimote(CLI::App& parent, Action& chosen);
 void add_record(CLI::App& parent, Action& chosen);
 void add_calibrate(CLI::App& parent, Action& chosen);
 void add_replay(CLI::App& parent, Action& chosen);
+void add_events(CLI::App& parent, Action& chosen);
 void add_touch(CLI::App& parent, Action& chosen);
 void add_track(CLI::App& parent, Action& chosen);
 void add_pack(CLI::App& parent, Action& chosen);

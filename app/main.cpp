@@ -47,6 +47,7 @@ void add_commands(CLI::App& app, vindu::app::Action& chosen) {
   vindu::app::add_mode(app, chosen);
   vindu::app::add_clip_command(app, chosen);
   vindu::app::add_goto(app, chosen);
+  vindu::app::add_events(app, chosen);
   vindu::app::add_touch(app, chosen);
   vindu::app::add_pattern(app, chosen);
   vindu::app::add_blank(app, chosen);

@@ -77,8 +77,8 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
   return line;
 }
 
-/// Heads that are seen now, on the topic pose. What is held or lost is not said: then a weaker
-/// tracker is heard.
+/// Heads that are seen now, on the topic pose, and their gestures. What is held or lost is not
+/// said: then a weaker tracker is heard.
 class Publisher {
  public:
   Publisher(const Site& site, int strength)
@@ -87,7 +87,7 @@ class Publisher {
                                .name = "tracker-" + host_name(),
                                .host = host_name(),
                                .version = VINDU_VERSION},
-                              {Topic::pose},
+                              {Topic::pose, Topic::event},
                               {},
                               strength})) {}
 
@@ -97,6 +97,15 @@ class Publisher {
         bus_->publish(PoseMessage{.pose = pose,
                                   .sent_time = now,
                                   .followed = followed && followed->object == pose.object});
+  }
+  /// To keep looking at a thing is to pick it.
+  void publish(const GestureEvent& event) {
+    const bool pick = event.gesture == Gesture::look;
+    bus_->publish(EventMessage{.source = host_name() + "/track",
+                               .kind = pick ? EventKind::pick : EventKind::gesture,
+                               .id = event.object,
+                               .value = event.confidence,
+                               .text = pick ? event.target : std::string(name_of(event.gesture))});
   }
 
  private:
@@ -158,9 +167,10 @@ int track(const TrackCommand& command) {
     if (publisher) publisher->publish(tracker, pose, clock.now());
     for (const std::string& line : lines.news(tracker, {}))
       if (command.json) std::puts(line.c_str());
-    if (!command.json)
-      for (const GestureEvent& event : lines.events())
-        fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", text_of(event, site));
+    for (const GestureEvent& event : lines.events()) {
+      if (publisher) publisher->publish(event);
+      if (!command.json) fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", text_of(event, site));
+    }
     if (terminal && now - shown > std::chrono::milliseconds(100)) {
       std::fputs(status_line(pose, tracker, cameras, site).c_str(), stderr);
       shown = now;
@@ -182,7 +192,8 @@ void add_track(CLI::App& parent, Action& chosen) {
   app->add_flag("--json", command->json,
                 "A line of JSON for each pose, gesture, and change of a camera");
   app->add_flag("--publish", command->publish,
-                "Poses go to the wall's master, by [cluster] of the wall file");
+                "Poses go to the wall's master, by [cluster] of the wall file, and gestures to\n"
+                "all who listen (vindu events)");
   app->add_option("--strength", command->strength,
                   "Of several trackers that publish the stronger is heard (default: 10)")
       ->check(CLI::Range(2, 1000));

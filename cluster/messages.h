@@ -134,16 +134,25 @@ struct CameraMessage {
 enum class EventKind { touch, gesture, pick, key };
 enum class EventPhase { begin, change, end };
 
-/// Devices to the master, which alone makes state of events.
+constexpr std::string_view name_of(EventKind kind) {
+  constexpr std::array<std::string_view, 4> names = {"touch", "gesture", "pick", "key"};
+  return names[static_cast<std::size_t>(kind)];
+}
+constexpr std::string_view name_of(EventPhase phase) {
+  constexpr std::array<std::string_view, 3> names = {"begin", "change", "end"};
+  return names[static_cast<std::size_t>(phase)];
+}
+
+/// Devices and trackers to the master, which alone makes state of events, and to consoles.
 struct EventMessage {
-  std::string source{};
+  std::string source{};  ///< "HOST/DEVICE"
   EventKind kind = EventKind::touch;
   EventPhase phase = EventPhase::begin;
-  int id = 0;       ///< finger, key code
+  int id = 0;       ///< finger, key code; of gestures and picks the head
   double x_px = 0;  ///< wall pixels from the upper left
   double y_px = 0;
-  double value = 0;
-  std::string text{};
+  double value = 0;    ///< of gestures and picks: how clear it was, 0 to 1
+  std::string text{};  ///< "nod", "shake"; of picks what is looked at
 };
 
 enum class Verb { show, mode, go_to, pattern, blank, stop, overlay, clip, capture };

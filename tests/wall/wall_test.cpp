@@ -14,6 +14,7 @@ namespace vindu {
 namespace {
 
 using namespace testing;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr const char* kCameras = R"(
@@ -177,6 +178,22 @@ TEST_F(WallTest, FollowsTheTrackerElsewhereAndTheNextOneWhenItDies) {
   std::set<std::string> eyes;
   for (const Swap& swap : swaps_in(path("tile-0-0.csv"))) eyes.insert(swap.eye_x_m);
   EXPECT_GT(eyes.size(), 30u);  // it moved
+}
+
+// The emulated person looks there again and again: who listens later hears the next time.
+TEST_F(WallTest, TellsWhoListensWhatAHeadKeepsLookingAt) {
+  write("wall.toml", bytes_of(wall_file_) + kCameras);
+  Child listener({VINDU_PROGRAM, "events", "--wall", wall_file_, "--json"}, path("events.log"));
+  Child tracker({VINDU_PROGRAM, "track", "--wall", wall_file_, "--publish", "--json", "--target",
+                 "middle,0,0,0,0.5"},
+                path("tracker.log"));
+  const auto heard = [&] { return bytes_of(path("events.log")); };
+  while (heard().find('\n') == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_THAT(heard(), AllOf(HasSubstr(R"("kind":"pick")"), HasSubstr(R"("text":"middle")"),
+                             HasSubstr("/track")));
+  listener.send(SIGINT);
+  EXPECT_EQ(listener.end(), 0);
 }
 
 TEST_F(WallTest, WritesALineForEachFrameWhosePartsAddUpThoughItIsKilled) {
