@@ -21,23 +21,23 @@ static_assert(std::endian::native == std::endian::little);
 
 /// Types whose bytes are their value: no pointers, no padding.
 template <class Type>
-constexpr bool kPlain = std::is_arithmetic_v<Type> || std::is_enum_v<Type>;
+inline constexpr bool kPlain = std::is_arithmetic_v<Type> || std::is_enum_v<Type>;
 template <>
-constexpr bool kPlain<PackedVertex> = sizeof(PackedVertex) == 16;
+inline constexpr bool kPlain<PackedVertex> = sizeof(PackedVertex) == 16;
 template <>
-constexpr bool kPlain<PackedDetail> = sizeof(PackedDetail) == 16;
+inline constexpr bool kPlain<PackedDetail> = sizeof(PackedDetail) == 16;
 template <>
-constexpr bool kPlain<Influences> = sizeof(Influences) == 16;
+inline constexpr bool kPlain<Influences> = sizeof(Influences) == 16;
 template <>
-constexpr bool kPlain<JointBox> = sizeof(JointBox) == 28;
+inline constexpr bool kPlain<JointBox> = sizeof(JointBox) == 28;
 template <>
-constexpr bool kPlain<Rgba8> = true;
+inline constexpr bool kPlain<Rgba8> = true;
 template <class Scalar, int Rows, int Columns>
-constexpr bool kPlain<Eigen::Matrix<Scalar, Rows, Columns>> = Rows > 0 && Columns > 0;
+inline constexpr bool kPlain<Eigen::Matrix<Scalar, Rows, Columns>> = Rows > 0 && Columns > 0;
 template <>
-constexpr bool kPlain<Eigen::Quaternionf> = true;
+inline constexpr bool kPlain<Eigen::Quaternionf> = true;
 template <>
-constexpr bool kPlain<Box3f> = true;
+inline constexpr bool kPlain<Box3f> = true;
 
 /// Of the spans, from the content's first byte on.
 constexpr std::size_t kAlignment = 16;
