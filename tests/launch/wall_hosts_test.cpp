@@ -130,11 +130,13 @@ TEST_F(WallHosts, AreDeployedToByTheProgramItself) {
   for (const std::string file : {"bin/vindu", "wall.toml", "models/a.obj", "models/a.mtl",
                                  "scene/it's $HOME.glb", "share/vindu/shaders"})
     EXPECT_TRUE(fs::exists(there / file)) << file;
+#ifndef __SANITIZE_THREAD__  // it draws, with Mesa
   const auto examined = on_head({VINDU_PROGRAM, "doctor", "--wall", wall, "--hosts"});
   EXPECT_THAT(examined.out, Contains(AllOf(HasSubstr("head,tile-[0-1]-0: note  graphics"),
                                            HasSubstr("llvmpipe"))))
       << ::testing::PrintToString(examined.out) << ::testing::PrintToString(examined.err);
   EXPECT_THAT(examined.out, Contains("Nothing stands in the way on 3 of 3 hosts."));
+#endif
   const auto stopped = on_head({VINDU_PROGRAM, "stop", "--wall", wall});
   EXPECT_THAT(stopped.out, ElementsAre("3 of 3 hosts stopped"));
   const auto restarted = on_head({VINDU_PROGRAM, "restart", "tile-1-0", "--wall", wall});
