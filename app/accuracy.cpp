@@ -171,7 +171,7 @@ std::vector<AccuracyTarget> targets_of(const Accuracy& accuracy) {
       add_target(targets,
                  fmt::format("{} 0.57 m/s, 30 ms, {}: over thesis", vindu::name_of(moves),
                              vindu::name_of(link)),
-                 limit, accuracy.moving, [&](const MovingRow& row) -> Ratio {
+                 limit, accuracy.moving, [&, link = link](const MovingRow& row) -> Ratio {
                    if (!is_usual(row, link) || row.options.moves != moves) return std::nullopt;
                    return row.over_thesis();
                  });

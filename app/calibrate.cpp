@@ -26,7 +26,7 @@ std::string stamp(const char* format) {
 }
 
 std::string recording_name(const CalibrateOptions& options, const CaptureWish& wish) {
-  const std::string name = wish.name + stamp("-{:%Y%m%d-%H%M%S}.vrec");
+  std::string name = wish.name + stamp("-{:%Y%m%d-%H%M%S}.vrec");
   if (options.wall_file.empty()) return name;
   const std::string folder = calibration_folder(options.wall_file);
   make_folder(folder);

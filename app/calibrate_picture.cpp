@@ -34,7 +34,7 @@ void draw_panel(Image& image, int left, const CoveragePanel& panel) {
   for (int row = 0; row < Coverage::kRows; ++row)
     for (int column = 0; column < Coverage::kColumns; ++column) {
       const int count =
-          panel.coverage.dots[static_cast<std::size_t>(row * Coverage::kColumns + column)];
+          panel.coverage.dots[static_cast<std::size_t>(row) * Coverage::kColumns + column];
       const int x = left + kMargin_px + column * kCell_px;
       const int y = kMargin_px + kTitle_px + row * kCell_px;
       paste(Image::filled(kCell_px - 2, kCell_px - 2, colour_of(count)), x, y, image);

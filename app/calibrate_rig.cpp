@@ -119,7 +119,7 @@ Rigid3 room_from_rig(const RigCommand& command, const Site& site) {
 int extrinsics(const RigCommand& command) {
   const Grid grid = grid_of(command);
   const Site site = load_site(command.common.wall_file);
-  const Rigid3 rig = room_from_rig(command, site);
+  Rigid3 rig = room_from_rig(command, site);
   const Calibrating run = capture(
       command.common,
       {.name = "extrinsics",

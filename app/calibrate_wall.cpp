@@ -57,7 +57,7 @@ ShowPage choose_show(const WallCommand& command, const Wall& wall) {
   if (!command.draw.empty()) return page_folder(wall, command.draw);
   if (!command.common.from.empty() || !has_display()) return show_nothing;
   try {
-    const ShowPage window = page_window(wall);
+    ShowPage window = page_window(wall);
     if (wall.tiles.size() > 1)
       log_info("wall", "the window shows all tiles together, small: touch the wall's own corners");
     return window;

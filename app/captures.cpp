@@ -75,7 +75,7 @@ std::optional<CapturedFrame> captured_frame_from(const std::string& text) {
 std::string capture_folder(const ClusterConfig& cluster) {
   std::string user = runtime_folder();
   if (user.empty()) make_private(user = fmt::format("/tmp/vindu-{}", geteuid()));
-  const std::string folder = user + "/" + capture_folder_name(cluster);
+  std::string folder = user + "/" + capture_folder_name(cluster);
   make_private(folder);
   return folder;
 }
