@@ -1,6 +1,7 @@
 // vindu deploy, restart, logs: for a wall over hosts, what is done on each of them over ssh.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <list>
@@ -101,7 +102,7 @@ void fill(Stage& stage, const HostsCommand& command, const Site& site) {
 /// that is no folder below it.
 fs::path key_folder_on_hosts(const HostsCommand& command, const Site& site) {
   const fs::path wall = fs::absolute(command.wall_file).parent_path().lexically_normal();
-  const fs::path keys = fs::absolute(site.cluster.keys).lexically_normal().lexically_relative(wall);
+  fs::path keys = fs::absolute(site.cluster.keys).lexically_normal().lexically_relative(wall);
   if (keys.empty() || keys == "." || *keys.begin() == "..")
     throw Error({"is no folder below the wall file's", site.cluster.keys,
                  "put the keys beside the wall file: [cluster] keys = \"keys\""});
@@ -153,8 +154,7 @@ std::vector<HostReport> followed(std::vector<HostReport> reports, const std::str
   for (const HostReport& report : reports)
     if (!report.failure) good.push_back(report.host);
   for (HostReport& next : on_hosts(good, script))
-    for (HostReport& report : reports)
-      if (report.host == next.host) report = std::move(next);
+    *std::ranges::find(reports, next.host, &HostReport::host) = std::move(next);
   return reports;
 }
 

@@ -85,7 +85,7 @@ std::string sha256_of(const std::string& file) {
   const ProgramResult result = run_program({"sha256sum", "--", file});
   // A name with a backslash or a line's end makes it write "\" first.
   const std::string line = result.out.empty() ? "" : result.out.front();
-  const std::string digits = line.substr(line.starts_with('\\') ? 1 : 0, 64);
+  std::string digits = line.substr(line.starts_with('\\') ? 1 : 0, 64);
   if (result.exit_code != 0 || digits.size() != 64)
     throw Error({"cannot be read", file, "see that it is there"});
   return digits;

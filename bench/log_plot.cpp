@@ -69,10 +69,11 @@ Image log_plot(const std::vector<Curve>& curves, const LogAxis& sizes, const std
   axes.draw(diagram);
   Vec2 legend(kLeft_px, 82);
   for (const Curve& curve : curves) {
+    axes.draw(diagram, curve);
+    if (curve.name.empty()) continue;
     diagram.line(legend, legend + Vec2(30, 0), 3, curve.colour);
     diagram.text(legend + Vec2(38, -9), curve.name, {16, kInk});
     legend.x() += 60 + 9.0 * static_cast<double>(curve.name.size());
-    axes.draw(diagram, curve);
   }
   return diagram.image();
 }

@@ -11,7 +11,7 @@
 namespace vindu {
 
 struct Curve {
-  std::string name;
+  std::string name;  ///< empty: it stands in no legend
   Rgba8 colour;
   std::vector<Vec2> points;  ///< size, ms
 };

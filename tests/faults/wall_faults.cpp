@@ -3,7 +3,6 @@
 // 0: no tile ever showed a wrong frame, the wall was whole again after every fault, nothing is
 // left.
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
