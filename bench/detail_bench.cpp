@@ -3,11 +3,11 @@
 // and, where they are asked for, osgviewer and ParaView on the same model from the same place in
 // the same run. The pictures that were timed are kept.
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>

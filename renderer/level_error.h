@@ -18,8 +18,8 @@ class LevelError {
   LevelError(std::span<const Vertex> vertices, const std::vector<bool>& shared_place)
       : vertices_(vertices), shared_place_(shared_place) {}
 
-  /// `nearest`: what the coarser surface has nearest to the vertex.
-  void add(std::uint32_t vertex, const SurfacePatches::Nearest& nearest);
+  /// `index` of a vertex; `nearest`: what the coarser surface has nearest to it.
+  void add(std::uint32_t index, const SurfacePatches::Nearest& nearest);
 
   /// In units of the node. The largest of: the farthest any vertex is off the surface; how far
   /// textures slide on it, but for the twentieth that slides most (across seams); and of what

@@ -56,7 +56,7 @@ Piece leaf_of(Scene& scene, int mesh) {
   const auto indices = indices_of(scene, scene.meshes[mesh]);
   std::vector<std::uint32_t> vertices(indices.begin(), indices.end());
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   Piece piece{.mesh = mesh, .witnesses = {}};
   for (const std::uint32_t vertex : vertices) piece.witnesses.push_back({vertex, 0});
   thin_out(piece.witnesses);

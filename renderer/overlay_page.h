@@ -75,6 +75,6 @@ struct ColumnsPx {
   int x = 0, width = 0;
 };
 ColumnsPx draw_bar(const FrameTimeline& timeline, std::size_t frame, const OverlayLayout& layout,
-                   Image& picture);
+                   Image& image);
 
 }  // namespace vindu

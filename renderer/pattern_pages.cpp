@@ -80,7 +80,8 @@ void draw_steps(Image& image, int row, const std::array<bool, 3>& primaries, int
     for (std::size_t part = 0; part < 3; ++part)
       if (primaries[part]) colour[part] = static_cast<std::uint8_t>(level);
     for (int y = top; y < bottom; ++y)
-      std::fill_n(image.pixels.begin() + y * image.width_px + left, right - left, colour);
+      std::fill_n(image.pixels.begin() + std::ptrdiff_t{y} * image.width_px + left, right - left,
+                  colour);
     if (style.height_px < 6) continue;
     const bool dark = luma(colour) < 128;
     const std::uint8_t grey = step > 1 ? (dark ? 255 : 0) : (dark ? 90 : 165);

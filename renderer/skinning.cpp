@@ -12,7 +12,7 @@ std::vector<Eigen::Matrix4f> joint_transforms(std::span<const Joint> joints,
     const Eigen::Matrix4d world_from_node =
         world_from_nodes[static_cast<std::size_t>(joint.node)].cast<double>();
     const Eigen::Matrix4d world_from_mesh = world_from_node * joint.joint_from_mesh.cast<double>();
-    world_from_meshes.push_back(world_from_mesh.cast<float>());
+    world_from_meshes.emplace_back(world_from_mesh.cast<float>());
   }
   return world_from_meshes;
 }

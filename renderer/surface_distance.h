@@ -43,7 +43,7 @@ class SurfacePatches {
     Box3f bounds;
   };
   std::array<Eigen::Vector3f, 3> corners_at(const Patch& patch, std::size_t first) const;
-  void search(std::size_t patch, const Eigen::Vector3f& point, Nearest& nearest) const;
+  void search(std::size_t index, const Eigen::Vector3f& point, Nearest& nearest) const;
 
   std::span<const Vertex> vertices_;
   std::vector<Patch> patches_;

@@ -4,8 +4,8 @@
 Usage: tidy.py [REGEX ...]: those sources alone whose path matches one: tools/tidy.py core/frustum.
 Needs a configured build (./test). A source that was clean is remembered in build/tidy-clean by its
 text, that of all headers of the project that it includes, and the settings; it is looked at again
-when one of them changes. So a run that is stopped goes on where it was. Tests are not analysed
-(clang-analyzer-*).
+when one of them changes. So a run that is stopped goes on where it was. Tests and benches are not
+analysed (clang-analyzer-*).
 """
 import concurrent.futures
 import hashlib
@@ -113,7 +113,7 @@ def findings_in(root, sources, flags, file):
     text, places = joined(root, sources)
     file.write_text(text, encoding="utf-8")
     # Its static analyzer follows every path through GoogleTest's macros: minutes for nothing.
-    checks = ["--checks=-clang-analyzer-*"] if sources[0].parts[0] == "tests" else []
+    checks = ["--checks=-clang-analyzer-*"] if sources[0].parts[0] in ("tests", "bench") else []
     result = subprocess.run(["clang-tidy", "-quiet", *checks, str(file), "--", *flags],
                             capture_output=True, text=True, cwd=root / "build/dev")
     if result.returncode == 0:
