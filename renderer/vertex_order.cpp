@@ -32,7 +32,7 @@ void order_vertices_by_use(Scene& scene, std::span<const Mesh> meshes) {
 void order_triangles_by_vertices(std::span<std::uint32_t> indices) {
   std::vector<std::uint32_t> used(indices.begin(), indices.end());
   std::ranges::sort(used);
-  used.erase(std::ranges::unique(used).begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
   std::vector<unsigned int> local;
   for (const std::uint32_t index : indices)
     local.push_back(

@@ -33,9 +33,11 @@ Surface surface(vec4 base) {
   s.normal = normalize(mat3(tangent, bitangent, s.normal) * (mapped * vec3(factors.zz, 1.0)));
 #endif
   // Normals on the viewer's side of the face: its back has them too, and old files mix the winding
-  // of their triangles.
+  // of their triangles. One that clearly looks at the viewer stays: the face of a triangle that is
+  // thinner than a pixel is known badly.
   vec3 face = cross(dFdx(position_in_world), dFdy(position_in_world));
-  if (dot(face, s.to_viewer) * dot(face, s.face_normal) < 0.0) {
+  bool away = dot(face, s.to_viewer) * dot(face, s.face_normal) < 0.0;
+  if (away && dot(s.face_normal, s.to_viewer) < 0.3) {
     s.normal = -s.normal;
     s.face_normal = -s.face_normal;
   }

@@ -88,7 +88,8 @@ MovingStudy study_moving(const MovingStudyOptions& options) {
   std::vector<std::vector<TrialFrame>> frames(methods.size() + kFixedNoises.size());
   const int trials = options.moves == HeadMoves::still ? kPlaces : 1;
   for (int i = 0; i < trials; ++i) {
-    const auto run = run_trial(trial_of(options, options.seed + 1000003 * i), methods);
+    const auto run =
+        run_trial(trial_of(options, options.seed + std::uint64_t{1000003} * i), methods);
     for (std::size_t m = 0; m < frames.size(); ++m)
       frames[m].insert(frames[m].end(), run[m].begin(), run[m].end());
   }

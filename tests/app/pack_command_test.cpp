@@ -76,8 +76,8 @@ TEST_F(PackCommand, SaysWhyAModelCannotBeReadAndGoesOnWithTheOthers) {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have no limits
 TEST_F(PackCommand, OutlivesAReaderThatIsGivenTooLittleMemory) {
-  const ProcessResult result =
-      pack({VINDU_SOURCE_DIR "/assets/show/show.glb", "--memory-mib", "40", "--out", path("s")});
+  const ProcessResult result = pack({std::string(VINDU_SOURCE_DIR) + "/assets/show/show.glb",
+                                     "--memory-mib", "40", "--out", path("s")});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("show.glb: "));
   EXPECT_FALSE(std::filesystem::exists(path("s")));
