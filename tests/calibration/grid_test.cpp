@@ -90,7 +90,7 @@ TEST(Place, IsFoundFromARigAtAKnownPlaceAlsoUpsideDown) {
     Rigid3& pose = wanted.site.cameras[0].room_from_camera;
     pose.rotation = pose.rotation * Quat(Eigen::AngleAxisd(roll_rad, Vec3::UnitZ()));
     const Grid grid{2, 2, 0.3, 0.3};
-    const Rigid3 room_from_rig{Quat(Eigen::AngleAxisd(-0.3, Vec3::UnitY())), {-0.2, 1.6, 2}};
+    Rigid3 room_from_rig{Quat(Eigen::AngleAxisd(-0.3, Vec3::UnitY())), {-0.2, 1.6, 2}};
     wanted.body = bare_leds(grid.leds_in_rig(), [&](Time) { return room_from_rig; });
     const PlaceResult place =
         calibrate_place(capture_of(wanted), wanted.site.cameras, 0, grid, room_from_rig);

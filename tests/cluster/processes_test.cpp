@@ -25,7 +25,7 @@ constexpr int kRows = 1;
 #else
 constexpr int kRows = 4;
 #endif
-constexpr std::size_t kPeers = 7 * kRows;
+constexpr std::size_t kPeers = std::size_t{7} * kRows;
 
 /// A bus_peer that ends with its scope.
 class Peer {

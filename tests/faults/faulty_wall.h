@@ -76,7 +76,7 @@ class FaultyWall {
     Time ended{};
   };
 
-  void start(std::size_t member);
+  void start(std::size_t index);
 
   FaultyWallOptions options_;
   std::string wall_file_;

@@ -287,7 +287,8 @@ TEST_F(Looks, PhongMaterialsOfAnObjFile) {
   std::string text = "mtllib phong.mtl\n";
   const char* names[] = {"dull", "plastic", "polished", "wood", "jelly", "rivets"};
   for (int i = 0; i < 6; ++i) {
-    const auto column = static_cast<float>(i % 3), row = static_cast<float>(i / 3);
+    const int line = i / 3;
+    const auto column = static_cast<float>(i % 3), row = static_cast<float>(line);
     text += std::string("usemtl ") + names[i] + "\n" +
             obj_lines(sphere(), {2.4f * column, -2.4f * row, 0}, 1, first);
   }

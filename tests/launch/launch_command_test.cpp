@@ -14,7 +14,6 @@ namespace {
 using namespace testing;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class LaunchCommand : public AppTest {
  protected:

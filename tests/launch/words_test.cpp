@@ -9,9 +9,6 @@
 namespace vindu {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-
 const std::vector<std::string> kNasty = {
     "",          "a b",
     "it's",      "'",
