@@ -10,8 +10,6 @@
 namespace vindu::app {
 namespace {
 
-using std::chrono::milliseconds;
-
 HeadConfig head_of(int leds) { return leds == 3 ? HeadConfig{} : four_led_head(); }
 
 std::size_t leds_of(const HeadConfig& head) { return head.leds_in_head.size(); }
@@ -45,7 +43,7 @@ std::vector<MovingRow> moving_rows(const AccuracyOptions& options) {
       rows.push_back({{.moves = moves,
                        .peak_m_s = peak_m_s,
                        .link = link,
-                       .photon_lag = milliseconds(lag_ms),
+                       .photon_lag = std::chrono::milliseconds(lag_ms),
                        .row = {.cameras = cameras},
                        .head = head_of(leds),
                        .length_s = options.length_s,
@@ -115,7 +113,7 @@ void add_target(std::vector<AccuracyTarget>& targets, const std::string& what, d
 
 /// At the speed and lag that the targets are set for; two cameras.
 bool is_usual(const MovingRow& row, Link link) {
-  return row.options.peak_m_s == 0.57 && row.options.photon_lag == milliseconds(30) &&
+  return row.options.peak_m_s == 0.57 && row.options.photon_lag == std::chrono::milliseconds(30) &&
          row.options.link == link && row.options.row.cameras == 2;
 }
 

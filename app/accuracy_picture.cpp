@@ -13,11 +13,11 @@ namespace {
 constexpr Rgba8 kBand{246, 247, 249, 255};
 constexpr Rgba8 kBest{60, 60, 60, 255};
 
-constexpr int kMargin_px = 36;
-constexpr int kHeader_px = 120;
+constexpr int kEdge_px = 36;
+constexpr int kHeading_px = 120;
 constexpr int kNames_px = 390;
 constexpr int kScale_px = 470;
-constexpr int kGap_px = 48;
+constexpr int kBetween_px = 48;
 constexpr int kRow_px = 21;
 constexpr double kLeast_mm = 0.5, kLargest_mm = 100;
 
@@ -139,18 +139,18 @@ void draw_legend(Diagram& diagram, Vec2 at_px) {
 Image accuracy_picture(const Accuracy& accuracy, const AccuracyOptions& options) {
   const std::vector<Line> frames = lines_of(accuracy.frames), moving = lines_of(accuracy.moving);
   const int panel_px = kNames_px + kScale_px;
-  const int top_px = kHeader_px + 60;
-  const int height_px = top_px + std::max(height_of(frames), height_of(moving)) + kMargin_px;
-  Diagram diagram({2 * kMargin_px + 2 * panel_px + kGap_px, height_px}, kPaper);
-  diagram.text({kMargin_px, 20}, "How far the tracked eye is from the true one", {32, kInk, true});
-  diagram.text({kMargin_px, 62},
+  const int top_px = kHeading_px + 60;
+  const int height_px = top_px + std::max(height_of(frames), height_of(moving)) + kEdge_px;
+  Diagram diagram({2 * kEdge_px + 2 * panel_px + kBetween_px, height_px}, kPaper);
+  diagram.text({kEdge_px, 20}, "How far the tracked eye is from the true one", {32, kInk, true});
+  diagram.text({kEdge_px, 62},
                fmt::format("Emulated Wiimotes behind the head, 0.5 px of noise, then rounding; {} "
                            "poses or {:g} s a row, seed {}.",
                            options.poses, options.length_s, options.seed),
                {18, kDim});
-  draw_legend(diagram, {kMargin_px + 8, 108});
-  draw_panel(diagram, {kMargin_px, static_cast<double>(top_px)}, "One frame, unfiltered", frames);
-  draw_panel(diagram, {kMargin_px + panel_px + kGap_px, static_cast<double>(top_px)},
+  draw_legend(diagram, {kEdge_px + 8, 108});
+  draw_panel(diagram, {kEdge_px, static_cast<double>(top_px)}, "One frame, unfiltered", frames);
+  draw_panel(diagram, {kEdge_px + panel_px + kBetween_px, static_cast<double>(top_px)},
              "Filtered, predicted to when the light leaves the wall", moving);
   return diagram.image();
 }

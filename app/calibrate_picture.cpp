@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/diagram.h"
 #include "renderer/text.h"
 
 namespace vindu::app {
 namespace {
 
-constexpr int kCell_px = 64, kMargin_px = 24, kTitle_px = 40;
-constexpr int kPanelWidth_px = Coverage::kColumns * kCell_px + 2 * kMargin_px;
-constexpr int kPanelHeight_px = Coverage::kRows * kCell_px + kTitle_px + 2 * kMargin_px;
-constexpr Rgba8 kPaper{16, 18, 22, 255};
+constexpr int kCell_px = 64, kRim_px = 24, kTitle_px = 40;
+constexpr int kPanelWidth_px = Coverage::kColumns * kCell_px + 2 * kRim_px;
+constexpr int kPanelHeight_px = Coverage::kRows * kCell_px + kTitle_px + 2 * kRim_px;
 constexpr Rgba8 kNever{70, 28, 28, 255};
-constexpr Rgba8 kWords{240, 240, 240, 255};
 
 /// Dark green for one dot to light green for 200 and more.
 Rgba8 colour_of(int count) {
@@ -28,17 +27,17 @@ Rgba8 colour_of(int count) {
 }
 
 void draw_panel(Image& image, int left, const CoveragePanel& panel) {
-  draw_text(image, left + kMargin_px, kMargin_px / 2,
+  draw_text(image, left + kRim_px, kRim_px / 2,
             fmt::format("{}: {:.0f} % covered", panel.title, 100 * panel.coverage.share()),
-            {22, kWords, true});
+            {22, kBright, true});
   for (int row = 0; row < Coverage::kRows; ++row)
     for (int column = 0; column < Coverage::kColumns; ++column) {
       const int count =
           panel.coverage.dots[static_cast<std::size_t>(row) * Coverage::kColumns + column];
-      const int x = left + kMargin_px + column * kCell_px;
-      const int y = kMargin_px + kTitle_px + row * kCell_px;
+      const int x = left + kRim_px + column * kCell_px;
+      const int y = kRim_px + kTitle_px + row * kCell_px;
       paste(Image::filled(kCell_px - 2, kCell_px - 2, colour_of(count)), x, y, image);
-      draw_text(image, x + 6, y + kCell_px - 24, std::to_string(count), {15, kWords});
+      draw_text(image, x + 6, y + kCell_px - 24, std::to_string(count), {15, kBright});
     }
 }
 
@@ -46,7 +45,7 @@ void draw_panel(Image& image, int left, const CoveragePanel& panel) {
 
 Image coverage_picture(const std::vector<CoveragePanel>& panels) {
   Image image =
-      Image::filled(static_cast<int>(panels.size()) * kPanelWidth_px, kPanelHeight_px, kPaper);
+      Image::filled(static_cast<int>(panels.size()) * kPanelWidth_px, kPanelHeight_px, kDarkPaper);
   for (std::size_t i = 0; i < panels.size(); ++i)
     draw_panel(image, static_cast<int>(i) * kPanelWidth_px, panels[i]);
   return image;

@@ -111,11 +111,6 @@ void fetch(const CaptureCommand& command, const Site& site, const CapturedFrame&
   read_pictures(folder.path(), command.tiles, frame, pictures);
 }
 
-void save(const Image& image, const std::string& file) {
-  write_png(image, file);
-  fmt::print("{}\n", file);
-}
-
 /// The scale of the largest picture: tiles may be drawn smaller than they are.
 double scale_of(const Wall& wall, const Pictures& pictures) {
   double scale = 0;
@@ -152,12 +147,12 @@ void save_wall(const CaptureCommand& command, const Site& site, const CapturedFr
                const Pictures& pictures) {
   const double scale = scale_of(site.wall, pictures);
   const Image whole = joined(site.wall, layout_of(site.wall, scale), pictures);
-  save(whole, command.out + "/wall.png");
+  save_picture(whole, command.out + "/wall.png");
   if (command.wall_picture) return;
   const auto surface = make_headless_surface({.device = command.device});
   WallRenderer wall(site.wall, scale, Look{});
   wall.picture().write(whole);
-  save(picture_from_eye(wall, frame.eye_in_wall, kEyePicture), command.out + "/eye.png");
+  save_picture(picture_from_eye(wall, frame.eye_in_wall, kEyePicture), command.out + "/eye.png");
 }
 
 void check_tiles(const CaptureCommand& command, const Wall& wall) {
@@ -177,7 +172,8 @@ int capture(CaptureCommand command) {
   if (!site.cluster.master.empty()) fetch(command, site, frame, pictures);
   make_folder(command.out);
   if (!command.wall_picture)
-    for (const auto& [tile, picture] : pictures) save(picture, command.out + "/" + tile + ".png");
+    for (const auto& [tile, picture] : pictures)
+      save_picture(picture, command.out + "/" + tile + ".png");
   if (whole && !pictures.empty()) save_wall(command, site, frame, pictures);
   for (const std::string& tile : command.tiles)
     if (!pictures.contains(tile))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -145,6 +146,13 @@ std::string json_text(const std::string& text) {
       quoted += letter;
   }
   return quoted + "\"";
+}
+
+std::string json_vec(const Vec3& v) { return fmt::format("[{},{},{}]", v.x(), v.y(), v.z()); }
+
+void save_picture(const Image& image, const std::string& file) {
+  write_png(image, file);
+  std::printf("%s\n", file.c_str());
 }
 
 void make_folder(const std::string& folder) {

@@ -49,6 +49,10 @@ std::string host_name();
 
 /// As a JSON string, quotes included.
 std::string json_text(const std::string& text);
+std::string json_vec(const Vec3& v);
+
+/// Writes the PNG and says its name. Throws Error when that fails.
+void save_picture(const Image& image, const std::string& file);
 
 /// Makes the folder, with its parents. Throws Error when that fails.
 void make_folder(const std::string& folder);

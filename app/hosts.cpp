@@ -31,7 +31,7 @@ struct HostsCommand {
 };
 
 /// A folder of links, laid out as the hosts are to have it; removed at the end.
-class Stage {
+class LinkFolder {
  public:
   void add(const fs::path& from, const fs::path& to) {
     if (!fs::exists(from)) throw Error({"is not there", from.string(), "name what is"});
@@ -69,7 +69,7 @@ bool is_whole(const fs::path& model) {
   return kind == ".glb" || kind == ".ply" || kind == ".stl";
 }
 
-void add_model(Stage& stage, const fs::path& model, const fs::path& to, const fs::path& keys) {
+void add_model(LinkFolder& stage, const fs::path& model, const fs::path& to, const fs::path& keys) {
   if (is_whole(model)) return stage.add(model, to);
   log_info("deploy", "the folder of " + model.string() + " comes along: its textures may be there");
   std::error_code no_such_keys;
@@ -78,7 +78,7 @@ void add_model(Stage& stage, const fs::path& model, const fs::path& to, const fs
       stage.add(entry.path(), to.parent_path() / entry.path().filename());
 }
 
-void fill(Stage& stage, const HostsCommand& command, const Site& site) {
+void fill(LinkFolder& stage, const HostsCommand& command, const Site& site) {
   const fs::path wall = command.wall_file, folder = fs::absolute(wall).parent_path();
   stage.add("/proc/self/exe", "bin/vindu");
   for (const std::string part : {"assets", "shaders"})
@@ -119,7 +119,7 @@ std::vector<KeyOwner> owners_at(const HostPlan& plan) {
 
 /// A host's own keys, checked, in a folder of links of its own. One whose key does not count any
 /// more is left behind with what is public, so that the others hear of it.
-void fill_keys(Stage& stage, const HostPlan& plan, const Site& site, const fs::path& to) {
+void fill_keys(LinkFolder& stage, const HostPlan& plan, const Site& site, const fs::path& to) {
   std::set<std::string> files;
   for (const KeyOwner& owner : owners_at(plan)) {
     const KeyState state = inspect_key(site.cluster.keys, owner).state;
@@ -159,7 +159,7 @@ std::vector<HostReport> followed(std::vector<HostReport> reports, const std::str
 }
 
 /// The command lines, and what is one host's alone.
-int print_copies(const std::vector<HostFiles>& hosts, const Stage& common) {
+int print_copies(const std::vector<HostFiles>& hosts, const LinkFolder& common) {
   for (const HostFiles& files : hosts) {
     fmt::print("{}\n", shell_words(rsync_words(files)));
     for (const std::string& folder : files.folders) {
@@ -175,9 +175,9 @@ int print_copies(const std::vector<HostFiles>& hosts, const Stage& common) {
 int deploy(const HostsCommand& command) {
   const Site site = load_site_with_hosts(command.wall_file);
   const auto plans = choose_hosts(site, command.hosts);
-  Stage stage;
+  LinkFolder stage;
   fill(stage, command, site);
-  std::list<Stage> own;
+  std::list<LinkFolder> own;
   std::vector<HostFiles> files;
   for (const HostPlan& plan : plans) files.push_back({plan.host, {stage.folder()}});
   if (!site.cluster.keys.empty()) {

@@ -184,8 +184,6 @@ void print_study(const std::string& title, const Study& study, const PlanOptions
   }
 }
 
-std::string json_vec(const Vec3& v) { return fmt::format("[{},{},{}]", v.x(), v.y(), v.z()); }
-
 std::string json_of(const Study& study) {
   std::string cameras, levels;
   for (const CameraConfig& camera : study.cameras)

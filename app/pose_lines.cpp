@@ -12,8 +12,6 @@
 namespace vindu::app {
 namespace {
 
-std::int64_t nanoseconds(Time time) { return Duration(time.time_since_epoch()).count(); }
-
 std::optional<double> number(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

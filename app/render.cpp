@@ -35,16 +35,11 @@ struct RenderOptions {
   std::optional<double> length_s;
 };
 
-void save(const Image& image, const std::string& file) {
-  write_png(image, file);
-  std::printf("%s\n", file.c_str());
-}
-
 void save_tiles(const WallRenderer& wall, const RenderOptions& options) {
   for (std::size_t index = 0; index < wall.wall().tiles.size(); ++index) {
     const std::string& name = wall.wall().tiles[index].name;
     if (options.tile.empty() || options.tile == name)
-      save(wall.read_tile(index), options.out + "/" + name + ".png");
+      save_picture(wall.read_tile(index), options.out + "/" + name + ".png");
   }
 }
 
@@ -97,8 +92,8 @@ int render(const RenderOptions& options) {
     log_warning(name, "is black: the eye is at or behind its plane");
   save_tiles(wall, options);
   if (only) return 0;
-  save(wall.picture().read(), options.out + "/wall.png");
-  save(picture_from_eye(wall, state.eye_in_wall, kEyePicture), options.out + "/eye.png");
+  save_picture(wall.picture().read(), options.out + "/wall.png");
+  save_picture(picture_from_eye(wall, state.eye_in_wall, kEyePicture), options.out + "/eye.png");
   return 0;
 }
 

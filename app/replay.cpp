@@ -210,7 +210,7 @@ int print_reports(const ReplayCommand& command, const RecordingSummary& summary)
   while (const auto report = reader.next()) {
     pace.clock->sleep_until(report->arrival + pace.shift);
     const std::string& device = summary.devices.at(report->device).name;
-    put_line(command.text ? text_line(device, *report) : json_of(*report, device));
+    put_line(command.text ? text_line(device, *report) : app::json_of(*report, device));
   }
   return 0;
 }

@@ -10,10 +10,6 @@
 namespace vindu::app {
 namespace {
 
-std::int64_t nanoseconds(Time time) { return Duration(time.time_since_epoch()).count(); }
-
-std::string json_vec(const Vec3& v) { return fmt::format("[{},{},{}]", v.x(), v.y(), v.z()); }
-
 template <class Slots>
 std::string json_dots(const Slots& slots, std::size_t first_slot) {
   std::string text;

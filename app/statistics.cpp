@@ -8,7 +8,7 @@
 namespace vindu::app {
 namespace {
 
-constexpr Duration kWords = std::chrono::milliseconds(500);
+constexpr Duration kWordsEvery = std::chrono::milliseconds(500);
 
 /// Of this process, in use (resident); 0 where the kernel does not say (proc(5), statm).
 double memory_bytes() {
@@ -58,7 +58,7 @@ void FrameStatistics::drew(const DrawCount& count, Duration draw, std::optional<
 void FrameStatistics::showed(Time now, const FrameParts& parts) {
   tally_.add(now, parts);
   timeline_.add(parts);
-  if (now - worded_ < kWords) return;
+  if (now - worded_ < kWordsEvery) return;
   worded_ = now;
   figures_.memory_bytes = memory_bytes();
   summary_ = tally_.summary(now);

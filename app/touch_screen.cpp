@@ -17,7 +17,7 @@ namespace {
 constexpr SizePx kOverview{1600, 1000};
 constexpr Rgba8 kBezel{0, 0, 0, 255};
 
-constexpr int kCaption_px = 48;
+constexpr int kFoot_px = 48;
 
 std::string caption_of(const TouchPage& page) {
   if (page.done >= page.points.size()) return "All points are touched";
@@ -35,7 +35,7 @@ WallLayout layout_within(const Wall& wall, SizePx largest) {
 
 SizePx overview_size(const Wall& wall) {
   const SizePx tiles = layout_within(wall, {1280, 900}).size;
-  return {tiles.width, tiles.height + kCaption_px};
+  return {tiles.width, tiles.height + kFoot_px};
 }
 
 class PageWindow {
@@ -133,16 +133,15 @@ ShowPage page_folder(const Wall& wall, const std::string& folder) {
 
 Image joined_pages(const TouchPage& page, const Wall& wall, SizePx largest) {
   const WallLayout layout =
-      layout_within(wall, {largest.width, std::max(1, largest.height - kCaption_px)});
+      layout_within(wall, {largest.width, std::max(1, largest.height - kFoot_px)});
   const SizePx size = layout.size;
-  Image joined = Image::filled(size.width, size.height + kCaption_px, kBezel);
+  Image joined = Image::filled(size.width, size.height + kFoot_px, kBezel);
   for (std::size_t i = 0; i < wall.tiles.size(); ++i) {
     const RectPx& place = layout.tiles[i];
     paste(draw_touch_page(page, wall.tiles[i], place.size), place.x,
           size.height - place.y - place.size.height, joined);
   }
-  draw_text(joined, kCaption_px / 4, size.height + kCaption_px / 4, caption_of(page),
-            {0.5 * kCaption_px});
+  draw_text(joined, kFoot_px / 4, size.height + kFoot_px / 4, caption_of(page), {0.5 * kFoot_px});
   return joined;
 }
 

@@ -113,7 +113,7 @@ class Publisher {
   std::unique_ptr<Bus> bus_;
 };
 
-std::string text_of(const GestureEvent& event, const Site& site) {
+std::string words_of(const GestureEvent& event, const Site& site) {
   const std::string& who = site.heads[static_cast<std::size_t>(event.object)].name;
   const std::string what = event.target.empty()
                                ? std::string(name_of(event.gesture))
@@ -169,7 +169,7 @@ int track(const TrackCommand& command) {
       if (command.json) std::puts(line.c_str());
     for (const GestureEvent& event : lines.events()) {
       if (publisher) publisher->publish(event);
-      if (!command.json) fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", text_of(event, site));
+      if (!command.json) fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", words_of(event, site));
     }
     if (terminal && now - shown > std::chrono::milliseconds(100)) {
       std::fputs(status_line(pose, tracker, cameras, site).c_str(), stderr);

@@ -18,8 +18,6 @@
 namespace vindu::app {
 namespace {
 
-using std::chrono::milliseconds;
-
 WiimoteFinding examine(HidBus& bus, Clock& clock, const HidInfo& info) {
   WiimoteFinding finding{.info = info};
   const std::vector<std::string> holders = holders_of(info.path);
@@ -29,7 +27,7 @@ WiimoteFinding examine(HidBus& bus, Clock& clock, const HidInfo& info) {
   }
   try {
     const auto device = bus.open(info.path);
-    finding.status = probe(*device, clock, milliseconds(600));
+    finding.status = probe(*device, clock, std::chrono::milliseconds(600));
     if (!finding.status)
       finding.state = kind_of(info) == WiimoteKind::adapter
                           ? "an empty slot"
@@ -94,7 +92,7 @@ int identify(const std::string& which, bool emulated, double seconds) {
   const HidInfo info = choose_wiimote(devices.bus(), which);
   const auto device = devices.bus().open(info.path);
   constexpr std::array<int, 6> kRun = {1, 2, 4, 8, 4, 2};
-  constexpr Duration kStep = milliseconds(150);
+  constexpr Duration kStep = std::chrono::milliseconds(150);
   fmt::print("Wiimote {} rumbles and its LEDs run to and fro.\n", info.address);
   const int steps = static_cast<int>(seconds / 0.15);
   for (int step = 0; step < steps; ++step) {

@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/diagram.h"
 #include "renderer/text.h"
 #include "tracker/wiimote/find.h"
 
 namespace vindu::app {
 namespace {
 
-constexpr int kColumns = 64, kRows = 24;
+constexpr int kTextColumns = 64, kTextRows = 24;
 constexpr int kSensorWidth_px = 1024, kSensorHeight_px = 768;
 
-constexpr Rgba8 kPaper{16, 18, 22, 255};
 constexpr Rgba8 kSensor{6, 7, 9, 255};
-constexpr Rgba8 kBright{240, 240, 240, 255};
-constexpr Rgba8 kDim{150, 158, 170, 255};
 constexpr Rgba8 kWarning{240, 180, 90, 255};
 constexpr Rgba8 kSlotColours[] = {
     {255, 120, 110, 255}, {120, 220, 130, 255}, {120, 180, 255, 255}, {245, 210, 110, 255}};
@@ -61,15 +59,15 @@ std::string dots_text(const WatchedWiimote& wiimote) {
 }
 
 std::string frame_of(const WatchedWiimote& wiimote) {
-  std::vector<std::string> rows(kRows, std::string(kColumns, ' '));
+  std::vector<std::string> rows(kTextRows, std::string(kTextColumns, ' '));
   if (wiimote.data && wiimote.data->slots)
     for (std::size_t slot = 0; slot < 4; ++slot)
       if (const auto& dot = (*wiimote.data->slots)[slot])
-        rows[dot->y_px * kRows / kSensorHeight_px][dot->x_px * kColumns / kSensorWidth_px] =
+        rows[dot->y_px * kTextRows / kSensorHeight_px][dot->x_px * kTextColumns / kSensorWidth_px] =
             static_cast<char>('1' + slot);
-  std::string text = '+' + std::string(kColumns, '-') + "+\n";
+  std::string text = '+' + std::string(kTextColumns, '-') + "+\n";
   for (const std::string& row : rows) text += '|' + row + "|\n";
-  return text + '+' + std::string(kColumns, '-') + "+\n";
+  return text + '+' + std::string(kTextColumns, '-') + "+\n";
 }
 
 void fill(Image& image, int x, int y, SizePx size, Rgba8 colour) {
@@ -110,8 +108,8 @@ void draw_panel(Image& image, int left, const WatchedWiimote& wiimote) {
   line(fmt::format("{:.0f} reports/s   {}   buttons {}", wiimote.reports_per_s,
                    battery_text(wiimote), wiimote.data ? text_of(wiimote.data->buttons) : "-"),
        {17, kBright});
-  line(acceleration_text(wiimote), {17, kDim});
-  line("gaps: " + text_of(wiimote.state.health.gaps), {17, kDim});
+  line(acceleration_text(wiimote), {17, kSoft});
+  line("gaps: " + text_of(wiimote.state.health.gaps), {17, kSoft});
   if (!wiimote.state.trouble.empty()) line(wiimote.state.trouble, {15, kWarning});
 }
 
@@ -141,7 +139,7 @@ std::string screen_text(const std::vector<WatchedWiimote>& wiimotes) {
 
 Image screen_picture(const std::vector<WatchedWiimote>& wiimotes) {
   const int count = std::max<int>(1, static_cast<int>(wiimotes.size()));
-  Image image = Image::filled(count * kPanelWidth, kPanelHeight, kPaper);
+  Image image = Image::filled(count * kPanelWidth, kPanelHeight, kDarkPaper);
   for (std::size_t index = 0; index < wiimotes.size(); ++index)
     draw_panel(image, static_cast<int>(index) * kPanelWidth, wiimotes[index]);
   return image;

@@ -18,8 +18,6 @@
 namespace vindu::app {
 namespace {
 
-using std::chrono::milliseconds;
-
 struct WatchOptions {
   std::vector<std::string> which;
   std::string format = "extended";
@@ -168,7 +166,7 @@ int watch(const WatchOptions& options) {
   if (!options.json && !options.no_window && has_display())
     window.emplace(SizePx{560 * static_cast<int>(watched.size()), 574});
   const bool terminal = !options.json && isatty(STDOUT_FILENO);
-  constexpr Duration kPeriod = milliseconds(50);
+  constexpr Duration kPeriod = std::chrono::milliseconds(50);
   const Time begin = devices.clock().now();
   Time summed_up = begin;
   bool open = true;

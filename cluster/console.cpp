@@ -7,7 +7,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr auto kRepeat = milliseconds(250);
+constexpr auto kAskAgain = milliseconds(250);
 
 [[noreturn]] void no_answer(const std::optional<Participant>& master,
                             const std::optional<Participant>& other, const Participant& self) {
@@ -37,7 +37,7 @@ AnswerMessage ask_wall(Transport& transport, const Participant& self, const Requ
                                   .verb = request.verb,
                                   .argument = request.argument,
                                   .clip = request.clip});
-      next = std::chrono::steady_clock::now() + kRepeat;
+      next = std::chrono::steady_clock::now() + kAskAgain;
     }
     bus->wait({Topic::answer, Topic::presence}, std::min(next, begin + patience));
     for (const Presence& presence : bus->take<Presence>())

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 
 namespace vindu {
 
@@ -12,6 +13,8 @@ using Duration = std::chrono::nanoseconds;
 
 inline double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 inline double milliseconds(Duration duration) { return 1e3 * seconds(duration); }
+/// Of the clock that took it, as messages and records carry times.
+inline std::int64_t nanoseconds(Time time) { return Duration(time.time_since_epoch()).count(); }
 /// To the nearest nanosecond.
 inline Duration from_seconds(double value_s) {
   return std::chrono::round<Duration>(std::chrono::duration<double>(value_s));

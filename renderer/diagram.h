@@ -19,6 +19,13 @@ constexpr Rgba8 kFaint{222, 226, 230, 255};
 // apart.
 constexpr Rgba8 kBlue{0, 114, 178, 255};
 constexpr Rgba8 kVermilion{213, 94, 0, 255};
+constexpr Rgba8 kOrange{230, 159, 0, 255};
+constexpr Rgba8 kSky{86, 180, 233, 255};
+constexpr Rgba8 kYellow{240, 228, 66, 255};
+// Of pages for a dark room.
+constexpr Rgba8 kDarkPaper{16, 18, 22, 255};
+constexpr Rgba8 kBright{240, 240, 240, 255};
+constexpr Rgba8 kSoft{150, 158, 170, 255};
 
 /// The colour over the pixel; its alpha and `cover`, 0 to 1, are how much of it.
 void blend(Rgba8& pixel, const Rgba8& colour, double cover);

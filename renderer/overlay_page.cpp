@@ -10,23 +10,23 @@
 namespace vindu {
 namespace {
 
-constexpr Rgba8 kGround{20, 23, 28, 255};
+constexpr Rgba8 kPanel{20, 23, 28, 255};
 constexpr Rgba8 kPlot{31, 35, 42, 255};
 constexpr Rgba8 kLine{62, 69, 80, 255};
-constexpr Rgba8 kBright{238, 240, 243, 255};
-constexpr Rgba8 kPlain{205, 210, 217, 255};
+constexpr Rgba8 kHeading{238, 240, 243, 255};
+constexpr Rgba8 kValue{205, 210, 217, 255};
 constexpr Rgba8 kFaded{134, 142, 153, 255};
 
 /// By Part. What is waited for is grey; the colours are Okabe & Ito's (Color Universal Design,
 /// 2008), which people of every colour vision tell apart.
-constexpr std::array<Rgba8, kParts> kColours = {{{118, 126, 138, 255},
-                                                 {204, 121, 167, 255},
-                                                 {86, 180, 233, 255},
-                                                 {0, 114, 178, 255},
-                                                 {0, 158, 115, 255},
-                                                 {240, 228, 66, 255},
-                                                 {230, 159, 0, 255},
-                                                 {84, 91, 102, 255}}};
+constexpr std::array<Rgba8, kParts> kPartColours = {{{118, 126, 138, 255},
+                                                     {204, 121, 167, 255},
+                                                     {86, 180, 233, 255},
+                                                     {0, 114, 178, 255},
+                                                     {0, 158, 115, 255},
+                                                     {240, 228, 66, 255},
+                                                     {230, 159, 0, 255},
+                                                     {84, 91, 102, 255}}};
 constexpr int kGapBars = 3;  // dark ones behind the newest
 
 void fill(Image& image, int x, int y, int width, int height, Rgba8 colour) {
@@ -41,9 +41,9 @@ struct Styles {
 };
 
 Styles styles_of(const OverlayLayout& layout) {
-  return {.title = {.height_px = 1.2 * layout.text_px, .colour = kBright, .bold = true},
-          .aside = {.height_px = 1.2 * layout.text_px, .colour = kBright},
-          .plain = {.height_px = layout.text_px, .colour = kPlain},
+  return {.title = {.height_px = 1.2 * layout.text_px, .colour = kHeading, .bold = true},
+          .aside = {.height_px = 1.2 * layout.text_px, .colour = kHeading},
+          .plain = {.height_px = layout.text_px, .colour = kValue},
           .faded = {.height_px = layout.text_px, .colour = kFaded}};
 }
 
@@ -90,7 +90,7 @@ void draw_legend(const FrameTimeline& timeline, const OverlayLayout& layout, Ima
     const int y = layout.legend_y_px + part % lines * layout.line_px;
     const auto index = static_cast<std::size_t>(part);
     fill(image, x, y + (static_cast<int>(layout.text_px) - swatch) / 2, swatch, swatch,
-         kColours[index]);
+         kPartColours[index]);
     draw_text(image, x + swatch * 8 / 5, y, name_of(static_cast<Part>(part)), styles.faded);
     text_to_right(image, x + width, y, fmt::format("{:.1f}", timeline.mean_ms[index]),
                   styles.plain);
@@ -180,7 +180,7 @@ OverlayLayout layout_of(const OverlayPage& page, SizePx room) {
 }
 
 Image draw_page(const OverlayPage& page, const OverlayLayout& layout) {
-  Image image = Image::filled(layout.size.width, layout.size.height, kGround);
+  Image image = Image::filled(layout.size.width, layout.size.height, kPanel);
   const Styles styles = styles_of(layout);
   const int right = layout.size.width - layout.pad_px;
   draw_text(image, layout.pad_px, layout.pad_px, page.title, styles.title);
@@ -220,7 +220,7 @@ ColumnsPx draw_bar(const FrameTimeline& timeline, std::size_t frame, const Overl
     const int from = height_of(sum_ms, timeline, layout);
     sum_ms += milliseconds(parts.durations[part]);
     const int to = height_of(sum_ms, timeline, layout);
-    if (to > from) fill(image, x, low - to, bar_width, to - from, kColours[part]);
+    if (to > from) fill(image, x, low - to, bar_width, to - from, kPartColours[part]);
   }
   return {x, width};
 }

@@ -17,10 +17,6 @@ constexpr Rgba8 kBlack{0, 0, 0, 255};
 constexpr Rgba8 kWhite{255, 255, 255, 255};
 constexpr Rgba8 kGrey{96, 96, 96, 255};
 constexpr Rgba8 kGreen{0, 255, 0, 255};
-// Okabe & Ito's, as diagram.h's
-constexpr Rgba8 kOrange{230, 159, 0, 255};
-constexpr Rgba8 kSky{86, 180, 233, 255};
-constexpr Rgba8 kYellow{240, 228, 66, 255};
 
 /// Share of a pixel's width that a line covers whose middle is so far from the pixel's.
 double line_cover(double distance_px, double width_px) {

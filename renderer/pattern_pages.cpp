@@ -12,9 +12,8 @@
 namespace vindu {
 namespace {
 
-constexpr Rgba8 kWhite{255, 255, 255, 255};
-constexpr Rgba8 kBright{200, 205, 212, 255};
-constexpr Rgba8 kSky{86, 180, 233, 255};
+constexpr Rgba8 kName{255, 255, 255, 255};
+constexpr Rgba8 kLabel{200, 205, 212, 255};
 constexpr std::array<Rgba8, 2> kGrounds{{{24, 28, 34, 255}, {44, 50, 60, 255}}};
 
 /// As high as asked, or as fits the width.
@@ -103,19 +102,19 @@ std::string text_of(const TileMount& mount) {
 Image draw_names(const Tile& tile, SizePx size) {
   Diagram page(size, kGrounds[static_cast<std::size_t>(tile.column + tile.row) % 2]);
   const double height = size.height, middle = 0.5 * size.width, room = 0.92 * size.width;
-  draw_frame(page, size, std::max(1.0, std::round(height / 384)), kBright);
+  draw_frame(page, size, std::max(1.0, std::round(height / 384)), kLabel);
   const TileSurface surface = surface_of(tile.corners, size);
   const Vec2 up = surface.metres_from_px.leftCols<2>().inverse() * Vec2(0, 1);
   draw_up(page, {middle, 0.15 * height}, up.normalized(), 0.2 * height);
   draw_lower_left(page, size);
   const TextStyle name =
-      fitted(tile.name, {.height_px = 0.26 * height, .colour = kWhite, .bold = true}, room);
+      fitted(tile.name, {.height_px = 0.26 * height, .colour = kName, .bold = true}, room);
   page.text({middle, 0.39 * height - 0.5 * name.height_px}, tile.name, name,
             Diagram::Align::middle);
   double top = 0.53 * height;
   for (const std::string& line : lines_of(tile)) {
     page.text({middle, top}, line,
-              fitted(line, {.height_px = 0.07 * height, .colour = kBright}, room),
+              fitted(line, {.height_px = 0.07 * height, .colour = kLabel}, room),
               Diagram::Align::middle);
     top += 0.085 * height;
   }

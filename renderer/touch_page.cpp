@@ -9,12 +9,10 @@
 namespace vindu {
 namespace {
 
-constexpr Rgba8 kDark{14, 16, 20, 255};
+constexpr Rgba8 kTouchPaper{14, 16, 20, 255};
 constexpr Rgba8 kBorder{44, 48, 56, 255};
-constexpr Rgba8 kWords{240, 240, 240, 255};
+constexpr Rgba8 kTask{240, 240, 240, 255};
 constexpr Rgba8 kLater{120, 128, 140, 255};
-// Of Okabe & Ito's colours, light enough for a dark page.
-constexpr Rgba8 kMark{240, 228, 66, 255};
 constexpr Rgba8 kTouched{0, 190, 140, 255};
 constexpr Rgba8 kRefused{255, 130, 60, 255};
 
@@ -56,11 +54,11 @@ class Mark {
 void draw_next(Mark& mark, const TouchPage& page, double unit_px) {
   const double r = page.ring_m;
   mark.ring(r, 1, 0.8 * unit_px, kBorder);
-  mark.ring(r, 1, 0.16 * unit_px, kMark);
-  mark.ring(r, std::clamp(page.held, 0.0, 1.0), 0.8 * unit_px, kMark);
+  mark.ring(r, 1, 0.16 * unit_px, kYellow);
+  mark.ring(r, std::clamp(page.held, 0.0, 1.0), 0.8 * unit_px, kYellow);
   for (const Vec2& way : {Vec2(r, 0), Vec2(0, r)})
-    mark.line(-0.85 * way, 0.85 * way, 0.16 * unit_px, kMark);
-  mark.disc(0.4 * unit_px, kMark);
+    mark.line(-0.85 * way, 0.85 * way, 0.16 * unit_px, kYellow);
+  mark.disc(0.4 * unit_px, kYellow);
 }
 
 void draw_other(Mark& mark, double ring_m, double unit_px, Rgba8 colour) {
@@ -92,7 +90,7 @@ void write_beside(Diagram& diagram, const Vec2& point_px, SizePx size, double aw
 void write_request(Diagram& diagram, const TouchPage& page, const Vec2& point_px, SizePx size,
                    double unit_px) {
   const double top_px = point_px.y() < 0.5 * size.height ? 0.7 * size.height : 0.06 * size.height;
-  write_line(diagram, size, top_px, {2.2 * unit_px, kWords, true}, "Hold the LED to the cross");
+  write_line(diagram, size, top_px, {2.2 * unit_px, kTask, true}, "Hold the LED to the cross");
   const std::string count =
       "point " + std::to_string(page.done + 1) + " of " + std::to_string(page.points.size());
   write_line(diagram, size, top_px + 2.5 * unit_px, {1.5 * unit_px, kLater}, count);
@@ -111,7 +109,7 @@ void draw_point(Diagram& diagram, const TouchPage& page, std::size_t index, cons
   Mark mark(diagram, tile.corners, point.x_in_wall, size);
   const bool next = index == page.done, touched = index < page.done;
   const bool after_next = index == page.done + 1;
-  const Rgba8 colour = next ? kMark : touched ? kTouched : after_next ? kWords : kLater;
+  const Rgba8 colour = next ? kYellow : touched ? kTouched : after_next ? kTask : kLater;
   next ? draw_next(mark, page, unit_px) : draw_other(mark, page.ring_m, unit_px, colour);
   if (point.tile != tile.name) return;
   const Vec2 point_px = mark.at(0, 0);
@@ -137,7 +135,7 @@ Vec2 pixel_of(const TileCorners& tile, const Vec3& x_in_wall, SizePx size) {
 }
 
 Image draw_touch_page(const TouchPage& page, const Tile& tile, SizePx size) {
-  Diagram diagram(size, kDark);
+  Diagram diagram(size, kTouchPaper);
   const double unit_px = size.height / 32.0;  // of a line of small words
   const Vec2 end_px(size.width, size.height);
   const double edge_px = std::max(1.0, 0.06 * unit_px);

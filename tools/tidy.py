@@ -2,10 +2,10 @@
 """clang-tidy over every source of Vindu, by .clang-tidy, with the commands of the preset dev.
 
 Usage: tidy.py [REGEX ...]: those sources alone whose path matches one: tools/tidy.py core/frustum.
-Needs a configured build (./test). A source that was clean is remembered in build/tidy-clean by its
-text, that of all headers of the project that it includes, and the settings; it is looked at again
-when one of them changes. So a run that is stopped goes on where it was. Tests and benches are not
-analysed (clang-analyzer-*).
+Configures a build of its own for those commands, build/tidy. A source that was clean is remembered
+in build/tidy-clean by its text, that of all headers of the project that it includes, and the
+settings; it is looked at again when one of them changes. So a run that is stopped goes on where it
+was. Tests and benches are not analysed (clang-analyzer-*).
 """
 import concurrent.futures
 import hashlib
@@ -52,9 +52,20 @@ def settings_of(root):
     return (root / ".clang-tidy").read_bytes() + version
 
 
+def configure(root):
+    """The commands, and the sources that are generated."""
+    for command in (["cmake", "--preset", "dev", "-B", str(root / "build/tidy"),
+                     "-DVINDU_TESTS=ON", "-DVINDU_BENCH=ON"],
+                    ["cmake", "--build", str(root / "build/tidy"),
+                     "--target", "vindu_wire_sources_generate"]):
+        done = subprocess.run(command, capture_output=True, text=True, cwd=root)
+        if done.returncode:
+            sys.exit(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
+
+
 def sources_to_check(root, patterns):
     """(source, compile command) of each that stands in the database, once."""
-    database = json.loads((root / "build/dev/compile_commands.json").read_text())
+    database = json.loads((root / "build/tidy/compile_commands.json").read_text())
     found = {}
     for entry in database:
         path = Path(entry["directory"], entry["file"])
@@ -115,7 +126,7 @@ def findings_in(root, sources, flags, file):
     # Its static analyzer follows every path through GoogleTest's macros: minutes for nothing.
     checks = ["--checks=-clang-analyzer-*"] if sources[0].parts[0] in ("tests", "bench") else []
     result = subprocess.run(["clang-tidy", "-quiet", *checks, str(file), "--", *flags],
-                            capture_output=True, text=True, cwd=root / "build/dev")
+                            capture_output=True, text=True, cwd=root / "build/tidy")
     if result.returncode == 0:
         return [(sources, "")]
     if "[clang-diagnostic-error]" in result.stdout and len(sources) > 1:
@@ -131,8 +142,7 @@ def findings_in(root, sources, flags, file):
 
 
 def main(patterns):
-    if not (ROOT / "build/dev/compile_commands.json").is_file():
-        sys.exit("build/dev is not configured: run ./test first.")
+    configure(ROOT)
     clean, settings = ROOT / "build/tidy-clean", settings_of(ROOT)
     clean.mkdir(parents=True, exist_ok=True)
     commands = dict(sources_to_check(ROOT, patterns))

@@ -58,7 +58,7 @@ Sights all_but(const Team& team, std::size_t camera) {
 
 class Search {
  public:
-  Search(const PlacementTask& task, const DotNoise& noise, const Progress& progress)
+  Search(const PlacementTask& task, const DotNoise& noise, const SearchProgress& progress)
       : task_(task), noise_(noise), progress_(progress) {
     const std::size_t stride = stride_over(task.poses.size());
     for (std::size_t i = 0; i < task.poses.size(); i += stride) coarse_.push_back(task.poses[i]);
@@ -245,7 +245,7 @@ class Search {
 
   const PlacementTask& task_;
   const DotNoise& noise_;
-  const Progress& progress_;
+  const SearchProgress& progress_;
   Poses coarse_;
   std::vector<Mount> candidates_;
   std::vector<Sights> candidate_sights_;  // of the coarse poses
@@ -277,7 +277,7 @@ double worth(const PoseBound& bound, double good_eye_m) {
 }
 
 std::vector<CameraConfig> place_cameras(const PlacementTask& task, int count, const DotNoise& noise,
-                                        const Progress& progress) {
+                                        const SearchProgress& progress) {
   task.validate();
   assert(count > 0);
   return Search(task, noise, progress).place(count);

@@ -41,10 +41,10 @@ bool covered(const PoseBound& bound, double good_eye_m);
 double worth(const PoseBound& bound, double good_eye_m);
 
 /// Told how far the search is, 0 to 1.
-using Progress = std::function<void(double share)>;
+using SearchProgress = std::function<void(double share)>;
 
 /// Cameras "plan-1" to "plan-N". Throws Error for a task that cannot be done.
 std::vector<CameraConfig> place_cameras(const PlacementTask& task, int count, const DotNoise& noise,
-                                        const Progress& progress = {});
+                                        const SearchProgress& progress = {});
 
 }  // namespace vindu

@@ -12,7 +12,7 @@
 namespace vindu {
 namespace {
 
-constexpr std::size_t kMaxLeds = 16;
+constexpr std::size_t kMostLeds = 16;
 constexpr std::size_t kWiimoteDots = 4;
 
 struct SeenDot {
@@ -62,12 +62,12 @@ Onlooker::Onlooker(const CameraConfig& camera)
 // P C (d_eye - [x_led - eye]x d_rotation): P the projection's derivative, C camera_from_room.
 Sight Onlooker::look(const HeadConfig& head, const Rigid3& room_from_head,
                      const DotNoise& noise) const {
-  assert(head.leds_in_head.size() <= kMaxLeds);
+  assert(head.leds_in_head.size() <= kMostLeds);
   const Vec3 camera_in_room = model_.room_from_camera().translation;
   const Vec3 camera_in_head = inverse(room_from_head) * camera_in_room;
   const Mat3 camera_from_room = model_.camera_from_room().rotation.toRotationMatrix();
   const Vec3 eye_in_room = room_from_head * head.eye_in_head;
-  std::array<SeenDot, kMaxLeds> seen;
+  std::array<SeenDot, kMostLeds> seen;
   std::size_t count = 0;
   for (std::size_t led = 0; led < head.leds_in_head.size(); ++led) {
     const Vec3 led_in_room = room_from_head * head.leds_in_head[led];

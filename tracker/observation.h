@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/clock.h"
+#include "core/rigid3.h"
 
 namespace vindu {
 
@@ -19,6 +20,8 @@ struct Dot {
 
   bool operator==(const Dot&) const = default;
 };
+
+inline Vec2 raw_px_of(const Dot& dot) { return {dot.x_px, dot.y_px}; }
 
 constexpr std::size_t kMaxDots = 16;
 

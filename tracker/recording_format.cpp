@@ -24,8 +24,6 @@ void append_text(Bytes& to, std::string_view text) {
   to.insert(to.end(), text.begin(), text.end());
 }
 
-std::int64_t nanoseconds(Time time) { return Duration(time.time_since_epoch()).count(); }
-
 std::uint32_t crc_of(ByteSpan bytes) {
   return static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
 }

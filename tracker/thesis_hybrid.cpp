@@ -6,15 +6,13 @@
 namespace vindu {
 namespace {
 
-constexpr std::size_t kLeds = 3;
-
 /// What one camera sees of each LED; null: not in its sight.
-using RaysOfLeds = std::array<const Ray*, kLeds>;
-using Points = std::array<TriangulatedPoint, kLeds>;
+using RaysOfLeds = std::array<const Ray*, kLmrLeds>;
+using Triple = std::array<TriangulatedPoint, kLmrLeds>;
 
 /// Sorted from left to right, two dots may be any two of the LEDs.
 std::vector<RaysOfLeds> labellings(std::span<const Ray> rays) {
-  if (rays.size() == kLeds) return {{&rays[0], &rays[1], &rays[2]}};
+  if (rays.size() == kLmrLeds) return {{&rays[0], &rays[1], &rays[2]}};
   if (rays.size() != 2) return {};
   return {
       {&rays[0], &rays[1], nullptr}, {&rays[0], nullptr, &rays[1]}, {nullptr, &rays[0], &rays[1]}};
@@ -23,14 +21,14 @@ std::vector<RaysOfLeds> labellings(std::span<const Ray> rays) {
 /// One labelling of both cameras' dots.
 struct Sighting {
   RaysOfLeds first, second;
-  std::array<std::optional<TriangulatedPoint>, kLeds> common;
+  std::array<std::optional<TriangulatedPoint>, kLmrLeds> common;
 };
 
 /// Empty where the labels cannot be right.
 std::optional<Sighting> sighting_of(const RaysOfLeds& first, const RaysOfLeds& second,
                                     double largest_gap_m) {
   Sighting sighting{first, second, {}};
-  for (std::size_t led = 0; led < kLeds; ++led) {
+  for (std::size_t led = 0; led < kLmrLeds; ++led) {
     if (!first[led] && !second[led]) return std::nullopt;
     if (!first[led] || !second[led]) continue;
     sighting.common[led] = triangulate(*first[led], *second[led]);
@@ -50,19 +48,19 @@ std::vector<TriangulatedPoint> places_on_sphere(const Ray& ray, const Vec3& cent
   return {at(hits.near_m), at(hits.far_m)};
 }
 
-std::vector<Points> completions(const Sighting& sighting, std::size_t centre,
+std::vector<Triple> completions(const Sighting& sighting, std::size_t centre,
                                 const LmrPoints& lmr_in_head) {
   const Vec3 centre_in_room = sighting.common[centre]->x_in_room;
-  std::vector<Points> all(1);
-  for (std::size_t led = 0; led < kLeds; ++led) {
+  std::vector<Triple> all(1);
+  for (std::size_t led = 0; led < kLmrLeds; ++led) {
     std::vector<TriangulatedPoint> places;
     if (sighting.common[led])
       places = {*sighting.common[led]};
     else
       places = places_on_sphere(sighting.first[led] ? *sighting.first[led] : *sighting.second[led],
                                 centre_in_room, (lmr_in_head[led] - lmr_in_head[centre]).norm());
-    std::vector<Points> longer;
-    for (const Points& begun : all)
+    std::vector<Triple> longer;
+    for (const Triple& begun : all)
       for (const TriangulatedPoint& place : places)
         longer.push_back(begun), longer.back()[led] = place;
     all = std::move(longer);
@@ -70,15 +68,15 @@ std::vector<Points> completions(const Sighting& sighting, std::size_t centre,
   return all;
 }
 
-bool from_left_to_right(const Points& points) {
+bool from_left_to_right(const Triple& points) {
   return points[0].x_in_room.x() < points[1].x_in_room.x() &&
          points[1].x_in_room.x() < points[2].x_in_room.x();
 }
 
-double misfit_of(const Points& points, const LmrPoints& lmr_in_head) {
+double misfit_of(const Triple& points, const LmrPoints& lmr_in_head) {
   double sum_m2 = 0;
-  for (std::size_t a = 0; a < kLeds; ++a) {
-    const std::size_t b = (a + 1) % kLeds;
+  for (std::size_t a = 0; a < kLmrLeds; ++a) {
+    const std::size_t b = (a + 1) % kLmrLeds;
     const double distance_m = (points[a].x_in_room - points[b].x_in_room).norm();
     const double error_m = distance_m - (lmr_in_head[a] - lmr_in_head[b]).norm();
     sum_m2 += error_m * error_m + points[a].gap_m * points[a].gap_m;
@@ -87,11 +85,11 @@ double misfit_of(const Points& points, const LmrPoints& lmr_in_head) {
 }
 
 /// How far the LEDs have moved, root mean square.
-double step_m(const Points& points, const LmrPoints& last_in_room) {
+double step_m(const Triple& points, const LmrPoints& last_in_room) {
   double sum_m2 = 0;
-  for (std::size_t led = 0; led < kLeds; ++led)
+  for (std::size_t led = 0; led < kLmrLeds; ++led)
     sum_m2 += (points[led].x_in_room - last_in_room[led]).squaredNorm();
-  return std::sqrt(sum_m2 / kLeds);
+  return std::sqrt(sum_m2 / kLmrLeds);
 }
 
 }  // namespace
@@ -115,14 +113,14 @@ std::vector<HybridCandidate> hybrid_candidates(std::span<const Ray> first,
                                                std::span<const Ray> second,
                                                const LmrPoints& lmr_in_head, double largest_gap_m) {
   std::vector<HybridCandidate> candidates;
-  if (first.size() == kLeds && second.size() == kLeds) return candidates;
+  if (first.size() == kLmrLeds && second.size() == kLmrLeds) return candidates;
   for (const RaysOfLeds& of_first : labellings(first))
     for (const RaysOfLeds& of_second : labellings(second)) {
       const auto sighting = sighting_of(of_first, of_second, largest_gap_m);
       if (!sighting) continue;
-      for (std::size_t centre = 0; centre < kLeds; ++centre) {
+      for (std::size_t centre = 0; centre < kLmrLeds; ++centre) {
         if (!sighting->common[centre]) continue;
-        for (const Points& points : completions(*sighting, centre, lmr_in_head))
+        for (const Triple& points : completions(*sighting, centre, lmr_in_head))
           if (from_left_to_right(points))
             candidates.push_back({points, misfit_of(points, lmr_in_head)});
       }

@@ -14,7 +14,8 @@
 namespace vindu {
 
 /// Left, middle and right LED, in one frame.
-using LmrPoints = std::array<Vec3, 3>;
+constexpr std::size_t kLmrLeds = 3;
+using LmrPoints = std::array<Vec3, kLmrLeds>;
 
 /// Along the ray, from its origin.
 struct SphereHits {

@@ -9,7 +9,6 @@ namespace {
 
 constexpr Duration kStale = std::chrono::milliseconds(100);
 constexpr Duration kForgets = std::chrono::milliseconds(300);  // where the head was
-constexpr std::size_t kLeds = 3;
 
 std::array<CameraModel, 2> first_two(std::span<const CameraConfig> cameras) {
   if (cameras.size() < 2)
@@ -30,7 +29,7 @@ Rigid3 lmr_from_head(std::span<const Vec3> leds_in_head) {
     throw Error(
         {what, "[head] leds_m", "use leds_m = [[-0.09, 0, -0.09], [0, 0, 0], [0.09, 0, -0.09]]"});
   };
-  if (leds_in_head.size() != kLeds)
+  if (leds_in_head.size() != kLmrLeds)
     fail("the thesis' method needs three LEDs, not " + std::to_string(leds_in_head.size()));
   const auto frame = lmr_frame(leds_in_head[0], leds_in_head[1], leds_in_head[2]);
   if (!frame) fail("three LEDs on one line give no orientation");
@@ -38,9 +37,9 @@ Rigid3 lmr_from_head(std::span<const Vec3> leds_in_head) {
 }
 
 std::optional<NoPose> trouble_with_counts(std::size_t first, std::size_t second) {
-  if (std::min(first, second) < kLeds) return NoPose::too_few_dots;
+  if (std::min(first, second) < kLmrLeds) return NoPose::too_few_dots;
   if (first != second) return NoPose::unequal_counts;
-  if (first > kLeds) return NoPose::too_many_dots;
+  if (first > kLmrLeds) return NoPose::too_many_dots;
   return std::nullopt;
 }
 
@@ -90,7 +89,7 @@ ThesisMethod::Found ThesisMethod::six_dof(const Rays& first, const Rays& second)
   if (const auto trouble = trouble_with_counts(first.size(), second.size()))
     return {.reason = *trouble};
   Found found;
-  for (std::size_t i = 0; i < kLeds; ++i) {
+  for (std::size_t i = 0; i < kLmrLeds; ++i) {
     const auto point = triangulate(first[i], second[i]);
     if (!point || point->gap_m > options_.largest_gap_m) {
       found.reason = NoPose::rays_do_not_meet;

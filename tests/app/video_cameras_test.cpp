@@ -11,7 +11,7 @@ using namespace testing;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string kWall =
+const std::string kSmallWall =
     "[wall]\ncolumns = 1\nrows = 1\nwidth_m = 2\nheight_m = 1\n"
     "tile_width_px = 200\ntile_height_px = 100\n";
 
@@ -24,7 +24,7 @@ std::string camera(const std::string& name, double x_m, const std::string& field
 class VideoCameras : public AppTest {
  protected:
   std::string write_wall(const std::string& left, const std::string& right) const {
-    return write("wall.toml", kWall + camera("left", -1, left) + camera("right", 1, right));
+    return write("wall.toml", kSmallWall + camera("left", -1, left) + camera("right", 1, right));
   }
 
   /// What a camera sees of a head that stands still, as pictures in the plainest format there is.

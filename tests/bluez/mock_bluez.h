@@ -18,6 +18,8 @@ class IConnection;
 
 namespace vindu::testing {
 
+constexpr const char* kWiimoteName = "Nintendo RVL-CNT-01";
+
 /// The bus alone. Ends with its scope.
 class PrivateBus {
  public:

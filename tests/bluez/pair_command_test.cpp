@@ -10,8 +10,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr const char* kName = "Nintendo RVL-CNT-01";
-
 TEST(WiimotePair, WithoutBluezItFailsAndSaysWhatToInstall) {
   const PrivateBus bus;
 
@@ -37,7 +35,7 @@ TEST(WiimotePair, SaysAsJsonWhatBecameOfEach) {
   const PrivateBus bus;
   MockBluez bluez(bus);
   bluez.add_adapter("hci0");
-  bluez.add_device_in_discovery("hci0", "00:00:00:00:00:0A", kName,
+  bluez.add_device_in_discovery("hci0", "00:00:00:00:00:0A", kWiimoteName,
                                 {.pair = "AuthenticationFailed"});
 
   const ProcessResult result = vindu({"wiimote", "pair", "--seconds", "3", "--json"});

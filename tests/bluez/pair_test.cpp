@@ -16,15 +16,14 @@ using ::testing::IsEmpty;
 
 constexpr const char* kWiimote = "00:1F:C5:1B:3A:B1";
 constexpr const char* kOther = "00:22:D7:E7:5B:D3";
-constexpr const char* kName = "Nintendo RVL-CNT-01";
 
 /// HID devices that appear a few looks late, as hidapi names them.
 class LateHid final : public HidBus {
  public:
   std::vector<HidInfo> list() override {
     if (++looks_ < 3) return {};
-    return {{"/dev/hidraw0", 0x057e, 0x0306, kName, "00:1f:c5:1b:3a:b1"},
-            {"/dev/hidraw1", 0x057e, 0x0306, kName, "00:22:d7:e7:5b:d3"}};
+    return {{"/dev/hidraw0", 0x057e, 0x0306, kWiimoteName, "00:1f:c5:1b:3a:b1"},
+            {"/dev/hidraw1", 0x057e, 0x0306, kWiimoteName, "00:22:d7:e7:5b:d3"}};
   }
   std::unique_ptr<HidDevice> open(const std::string&) override { return nullptr; }
   int looks() const { return looks_; }
@@ -62,7 +61,7 @@ class PairTest : public ::testing::Test {
 
 TEST_F(PairTest, OneThatIsFoundAfterAWhileIsBondedTrustedConnectedAndReady) {
   bluez_.add_adapter("hci0");
-  bluez_.add_device_in_discovery("hci0", kWiimote, kName);
+  bluez_.add_device_in_discovery("hci0", kWiimote, kWiimoteName);
 
   const auto results = pair({});
 
@@ -77,7 +76,7 @@ TEST_F(PairTest, OneThatIsFoundAfterAWhileIsBondedTrustedConnectedAndReady) {
 
 TEST_F(PairTest, ItWaitsForTheHidDevice) {
   bluez_.add_adapter("hci0");
-  bluez_.add_device_in_discovery("hci0", kWiimote, kName);
+  bluez_.add_device_in_discovery("hci0", kWiimote, kWiimoteName);
 
   pair({});
 
@@ -94,7 +93,7 @@ TEST_F(PairTest, OnlyClassicBluetoothIsSearched) {
 
 TEST_F(PairTest, AsManyAsAreAskedFor) {
   bluez_.add_adapter("hci0");
-  bluez_.add_device_in_discovery("hci0", kWiimote, kName);
+  bluez_.add_device_in_discovery("hci0", kWiimote, kWiimoteName);
   bluez_.add_device_in_discovery("hci0", kOther, "Nintendo RVL-CNT-01-TR");
 
   const auto results = pair({.count = 2});
@@ -114,7 +113,7 @@ TEST_F(PairTest, WhatIsNoWiimoteIsLeftAlone) {
 
 TEST_F(PairTest, AFailedPairingSaysWhatToPressAndIsForgotten) {
   bluez_.add_adapter("hci0");
-  bluez_.add_device_in_discovery("hci0", kWiimote, kName, {.pair = "AuthenticationFailed"});
+  bluez_.add_device_in_discovery("hci0", kWiimote, kWiimoteName, {.pair = "AuthenticationFailed"});
 
   const auto results = pair({.patience = 2s});
 
@@ -127,8 +126,8 @@ TEST_F(PairTest, AFailedPairingSaysWhatToPressAndIsForgotten) {
 
 TEST_F(PairTest, AFailureDoesNotKeepTheNextOneFromBeingPaired) {
   bluez_.add_adapter("hci0");
-  bluez_.add_device_in_discovery("hci0", kWiimote, kName, {.connect = "Failed"});
-  bluez_.add_device_in_discovery("hci0", kOther, kName);
+  bluez_.add_device_in_discovery("hci0", kWiimote, kWiimoteName, {.connect = "Failed"});
+  bluez_.add_device_in_discovery("hci0", kOther, kWiimoteName);
 
   const auto results = pair({.patience = 4s});
 
@@ -140,7 +139,7 @@ TEST_F(PairTest, AFailureDoesNotKeepTheNextOneFromBeingPaired) {
 TEST_F(PairTest, AConnectionWithoutHidDeviceSaysWhyNot) {
   NoHid none;
   bluez_.add_adapter("hci0");
-  bluez_.add_device_in_discovery("hci0", kWiimote, kName);
+  bluez_.add_device_in_discovery("hci0", kWiimote, kWiimoteName);
 
   const auto results = pair(none, {.patience = 2s, .hid_wait = 300ms});
 
@@ -151,9 +150,9 @@ TEST_F(PairTest, AConnectionWithoutHidDeviceSaysWhyNot) {
 
 TEST_F(PairTest, OneThatIsKnownWithoutABondIsRemovedAndPairedAnew) {
   bluez_.add_adapter("hci0");
-  bluez_.add_device("hci0", kWiimote, kName, {.pair = "AuthenticationFailed"});
+  bluez_.add_device("hci0", kWiimote, kWiimoteName, {.pair = "AuthenticationFailed"});
   bluez_.set_device("hci0", kWiimote, "Connected", true);  // as 1+2 leaves it
-  bluez_.add_device_in_discovery("hci0", kWiimote, kName);
+  bluez_.add_device_in_discovery("hci0", kWiimote, kWiimoteName);
 
   const auto results = pair({});
 
@@ -163,7 +162,7 @@ TEST_F(PairTest, OneThatIsKnownWithoutABondIsRemovedAndPairedAnew) {
 
 TEST_F(PairTest, OneThatIsKnownWithoutABondIsNotTakenForOneInDiscovery) {
   bluez_.add_adapter("hci0");
-  bluez_.add_device("hci0", kWiimote, kName);
+  bluez_.add_device("hci0", kWiimote, kWiimoteName);
 
   EXPECT_THAT(pair({.patience = 1s}), IsEmpty());
   EXPECT_THAT(bluez_wiimotes().wiimotes, IsEmpty());
@@ -182,7 +181,7 @@ TEST_F(PairTest, ABondedOneInDiscoveryIsConnectedAndKeepsItsBond) {
 
 TEST_F(PairTest, AStaleBondIsRemoved) {
   bluez_.add_adapter("hci0");
-  bluez_.add_device("hci0", kWiimote, kName, {.connect = "Failed"});
+  bluez_.add_device("hci0", kWiimote, kWiimoteName, {.connect = "Failed"});
   bluez_.set_device("hci0", kWiimote, "Paired", true);
 
   pair({.patience = 2s});
@@ -194,7 +193,7 @@ TEST_F(PairTest, TheAdapterWithTheFewestWiimotesIsTaken) {
   bluez_.add_adapter("hci0");
   bluez_.add_adapter("hci1");
   bluez_.add_bonded("hci0", kOther);
-  bluez_.add_device_in_discovery("hci1", kWiimote, kName);
+  bluez_.add_device_in_discovery("hci1", kWiimote, kWiimoteName);
 
   const auto results = pair({});
 
@@ -207,7 +206,7 @@ TEST_F(PairTest, TheAdapterThatIsNamedIsTaken) {
   bluez_.add_adapter("hci1");
   bluez_.add_bonded("hci1", kOther);
   bluez_.set_device("hci1", kOther, "Connected", true);
-  bluez_.add_device_in_discovery("hci1", kWiimote, kName);
+  bluez_.add_device_in_discovery("hci1", kWiimote, kWiimoteName);
 
   const auto results = pair({.adapter = "hci1"});
 
@@ -247,7 +246,7 @@ TEST_F(PairTest, AnAdapterThatIsOnIsPreferred) {
   bluez_.add_adapter("hci0");
   bluez_.add_adapter("hci1");
   bluez_.set_adapter("hci0", "Powered", false);
-  bluez_.add_device_in_discovery("hci1", kWiimote, kName);
+  bluez_.add_device_in_discovery("hci1", kWiimote, kWiimoteName);
 
   EXPECT_EQ(pair({}).size(), 1u);
 }

@@ -12,14 +12,12 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* kName = "Nintendo RVL-CNT-01";
-
 TEST(BluezView, SaysWhichWiimoteIsOnWhichAdapterAndHowItStands) {
   const PrivateBus bus;
   MockBluez bluez(bus);
   bluez.add_adapter("hci0");
   bluez.add_adapter("hci1");
-  bluez.add_device("hci0", "00:00:00:00:00:0B", kName);
+  bluez.add_device("hci0", "00:00:00:00:00:0B", kWiimoteName);
   bluez.add_bonded("hci1", "00:00:00:00:00:0A");
   bluez.set_device("hci1", "00:00:00:00:00:0A", "Trusted", true);
   bluez.add_device("hci0", "00:00:00:00:00:0C", "Nintendo RVL-CNT-01-UC");

@@ -58,7 +58,7 @@ constexpr double kFineCell_m = 0.05, kCoarseCell_m = 0.25;
 const Vec3 kMiddle(0, 0.1, 2.0), kFarLeft(-3.2, 0.2, 1.8), kClose(0.5, 0.15, 0.4),
     kLow(0.3, -1.35, 1.6);
 
-class ClosedLoop : public testing::Test {
+class ClosedLoop : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     surface_ = make_headless_surface();

@@ -52,7 +52,7 @@ upper_left_m = [1.13, 0.55, 0.0]
 )";
 
 TEST(ClosedLoopOfTheProgram, RenderedTilesShowWhatTheEyeSees) {
-  const fs::path folder = fs::path(testing::TempDir()) / "vindu_closed_loop";
+  const fs::path folder = fs::path(::testing::TempDir()) / "vindu_closed_loop";
   fs::create_directories(folder);
   const Scene code = position_coded_scene(0.05);
   write_ply(code, folder / "code.ply");

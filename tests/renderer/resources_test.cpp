@@ -33,8 +33,8 @@ TEST(Resources, ThatAreMissingAreNamedWithARemedy) {
 
 // The folder is looked for once in a process, so this asks in a process of its own.
 TEST(ResourcesDeathTest, AreTakenFromTheFolderThatTheEnvironmentNames) {
-  testing::FLAGS_gtest_death_test_style = "threadsafe";
-  const fs::path folder = fs::path(testing::TempDir()) / "vindu-data";
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const fs::path folder = fs::path(::testing::TempDir()) / "vindu-data";
   fs::create_directories(folder / "shaders");
   fs::create_directories(folder / "assets");
   std::ofstream(folder / "assets/own.toml") << "own\n";
@@ -43,7 +43,7 @@ TEST(ResourcesDeathTest, AreTakenFromTheFolderThatTheEnvironmentNames) {
     const std::string path = find_asset("own.toml");
     std::exit(path == fs::canonical(folder / "assets/own.toml").string() ? 0 : 1);
   };
-  EXPECT_EXIT(found(), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(found(), ::testing::ExitedWithCode(0), "");
   fs::remove_all(folder);
 }
 

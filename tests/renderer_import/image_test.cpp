@@ -75,7 +75,7 @@ TEST(Image, WritingIntoAMissingFolderIsAnErrorThatNamesTheFile) {
     write_png(gradient(2, 2), file);
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr(file));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(file));
   }
 }
 

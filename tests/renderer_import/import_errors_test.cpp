@@ -16,11 +16,11 @@ namespace vindu {
 namespace {
 
 using test::TemporaryFolder;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 constexpr const char* kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
@@ -34,7 +34,7 @@ std::string message_of(const std::string& file, const ImportLimits& limits = {})
   }
 }
 
-std::string bytes_of(const std::string& file) {
+std::string text_of(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -112,7 +112,7 @@ TEST(ImportError, TextWithAModelsName) {
 TEST(ImportError, EveryCutOffGlb) {
   const TemporaryFolder folder;
   const std::string whole =
-      bytes_of(test::test_model("glTF2/BoxTextured-glTF-Binary/BoxTextured.glb"));
+      text_of(test::test_model("glTF2/BoxTextured-glTF-Binary/BoxTextured.glb"));
   ASSERT_GT(whole.size(), 2000u);
 
   for (std::size_t size = 1; size < whole.size(); size += 97)
@@ -166,7 +166,7 @@ TEST(ImportError, MessageIsOneLine) {
 }
 
 /// All of Debian's broken files; none of them crashes Assimp 5.2.5.
-class BrokenModel : public testing::TestWithParam<const char*> {};
+class BrokenModel : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BrokenModel, IsAnError) {
   const std::string file = test::test_model(GetParam());
@@ -177,18 +177,17 @@ TEST_P(BrokenModel, IsAnError) {
 
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenModel,
-    testing::Values("invalid/empty.3ds", "invalid/empty.ase", "invalid/empty.lwo",
-                    "invalid/empty.md5mesh", "invalid/empty.obj", "invalid/empty.off",
-                    "invalid/empty.ply", "invalid/empty.raw", "invalid/empty.smd",
-                    "invalid/empty.x", "invalid/emptyIrrMesh.xml", "invalid/malformed.obj",
-                    "invalid/readme.txt", "OFF/invalid.off", "FBX/transparentTest.fbx",
-                    "glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf",
-                    "glTF2/SchemaFailures/sceneWrongType.gltf", "glTF2/TestNoRootNode/NoScene.gltf",
-                    "glTF2/TestNoRootNode/SceneWithoutNodes.gltf",
-                    "glTF2/issue_3269/texcoord_crash.gltf", "glTF2/wrongTypes/badArray.gltf",
-                    "glTF2/wrongTypes/badExtension.gltf", "glTF2/wrongTypes/badNumber.gltf",
-                    "glTF2/wrongTypes/badObject.gltf", "glTF2/wrongTypes/badString.gltf",
-                    "glTF2/wrongTypes/badUint.gltf"));
+    ::testing::Values(
+        "invalid/empty.3ds", "invalid/empty.ase", "invalid/empty.lwo", "invalid/empty.md5mesh",
+        "invalid/empty.obj", "invalid/empty.off", "invalid/empty.ply", "invalid/empty.raw",
+        "invalid/empty.smd", "invalid/empty.x", "invalid/emptyIrrMesh.xml", "invalid/malformed.obj",
+        "invalid/readme.txt", "OFF/invalid.off", "FBX/transparentTest.fbx",
+        "glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf",
+        "glTF2/SchemaFailures/sceneWrongType.gltf", "glTF2/TestNoRootNode/NoScene.gltf",
+        "glTF2/TestNoRootNode/SceneWithoutNodes.gltf", "glTF2/issue_3269/texcoord_crash.gltf",
+        "glTF2/wrongTypes/badArray.gltf", "glTF2/wrongTypes/badExtension.gltf",
+        "glTF2/wrongTypes/badNumber.gltf", "glTF2/wrongTypes/badObject.gltf",
+        "glTF2/wrongTypes/badString.gltf", "glTF2/wrongTypes/badUint.gltf"));
 
 /// A PLY triangle whose header is given but for its first and last line.
 std::string ply_with_header(const std::string& header) {

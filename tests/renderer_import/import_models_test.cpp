@@ -14,8 +14,8 @@
 namespace vindu {
 namespace {
 
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 struct Known {
   const char* file;
@@ -23,7 +23,7 @@ struct Known {
   std::size_t textures;
 };
 
-std::string test_name(const testing::TestParamInfo<Known>& info) {
+std::string test_name(const ::testing::TestParamInfo<Known>& info) {
   std::string name = info.param.file;
   std::ranges::replace_if(
       name, [](unsigned char c) { return !std::isalnum(c); }, '_');
@@ -56,7 +56,7 @@ void expect_sound(const Scene& scene) {
   }
 }
 
-class RealModel : public testing::TestWithParam<Known> {};
+class RealModel : public ::testing::TestWithParam<Known> {};
 
 TEST_P(RealModel, LoadsWhole) {
   const std::string file = test::test_model(GetParam().file);
@@ -76,7 +76,7 @@ TEST_P(RealModel, LoadsWhole) {
 
 INSTANTIATE_TEST_SUITE_P(
     Files, RealModel,
-    testing::Values(
+    ::testing::Values(
         Known{"3DS/RotatingCube.3DS", 12, 0}, Known{"3DS/cube_with_diffuse_texture.3DS", 12, 1},
         Known{"3DS/fels.3ds", 768, 0}, Known{"3DS/test1.3ds", 108, 3}, Known{"3MF/box.3mf", 12, 0},
         Known{"AC/Wuson.ac", 3732, 0}, Known{"B3D/WusonBlitz.b3d", 3732, 0},
@@ -246,9 +246,9 @@ TEST(RealModels, LinesAndMorphTargetsAreWarnedOf) {
   };
 
   EXPECT_THAT(warnings("OBJ/testmixed.obj"),
-              testing::Contains(testing::HasSubstr("points and lines")));
+              ::testing::Contains(::testing::HasSubstr("points and lines")));
   EXPECT_THAT(warnings("glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf"),
-              testing::Contains(testing::HasSubstr("morph")));
+              ::testing::Contains(::testing::HasSubstr("morph")));
   EXPECT_THAT(warnings("OBJ/spider.obj"), IsEmpty());
 }
 

@@ -108,8 +108,8 @@ TEST_F(ImportSkin, KeepsTheFourStrongest) {
                               .bone("f", {{0, 0.2f}}));
   const double sum = 0.3 + 0.2 + 0.2 + 0.15;
   const auto kept = pulls(found.at(0));
-  ASSERT_THAT(kept,
-              ElementsAre(testing::Key(2), testing::Key(4), testing::Key(5), testing::Key(6)));
+  ASSERT_THAT(kept, ElementsAre(::testing::Key(2), ::testing::Key(4), ::testing::Key(5),
+                                ::testing::Key(6)));
   EXPECT_NEAR(kept.at(2), 0.3 / sum * kFullWeight, 4);
   EXPECT_NEAR(kept.at(5), 0.15 / sum * kFullWeight, 4);
   EXPECT_THAT(warnings(), Contains(HasSubstr("1 vertices follow more than four bones")));

@@ -16,7 +16,7 @@ struct Case {
   const char* name;  ///< as the model writes it
 };
 
-class FoundTexture : public testing::TestWithParam<Case> {};
+class FoundTexture : public ::testing::TestWithParam<Case> {};
 
 TEST_P(FoundTexture, IsTheFileThatWasMeant) {
   const TemporaryFolder folder;
@@ -29,22 +29,24 @@ TEST_P(FoundTexture, IsTheFileThatWasMeant) {
   EXPECT_TRUE(std::filesystem::equivalent(*found, file)) << *found;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Names, FoundTexture,
-    testing::Values(Case{"model/wood.png", "wood.png"}, Case{"model/wood.png", "WOOD.PNG"},
-                    Case{"model/Wood.PNG", "wood.png"}, Case{"model/wood.png", "./wood.png"},
-                    Case{"model/tex/wood.png", "tex\\wood.png"},
-                    Case{"model/Tex/Wood.png", "tex/wood.png"},
-                    Case{"model/wood.png", "C:\\Users\\Author\\wood.png"},
-                    Case{"model/wood.png", "/home/author/wood.png"},
-                    Case{"model/textures/wood.png", "D:/maps/wood.png"},
-                    Case{"textures/wood.png", "wood.png"},
-                    Case{"textures/wood.png", "../textures/wood.png"},
-                    Case{"model/my wood.png", "my%20wood.png"}, Case{"model/100%.png", "100%.png"},
-                    Case{"model/wood.png", "file:///C:/maps/wood.png"},
-                    Case{"model/tex/wood.png", "//tex/wood.png"},
-                    Case{"model/wood.png", "\"wood.png\" \"wood.gif\""},
-                    Case{"model/wood.png", "  wood.png\r"}));
+INSTANTIATE_TEST_SUITE_P(Names, FoundTexture,
+                         ::testing::Values(Case{"model/wood.png", "wood.png"},
+                                           Case{"model/wood.png", "WOOD.PNG"},
+                                           Case{"model/Wood.PNG", "wood.png"},
+                                           Case{"model/wood.png", "./wood.png"},
+                                           Case{"model/tex/wood.png", "tex\\wood.png"},
+                                           Case{"model/Tex/Wood.png", "tex/wood.png"},
+                                           Case{"model/wood.png", "C:\\Users\\Author\\wood.png"},
+                                           Case{"model/wood.png", "/home/author/wood.png"},
+                                           Case{"model/textures/wood.png", "D:/maps/wood.png"},
+                                           Case{"textures/wood.png", "wood.png"},
+                                           Case{"textures/wood.png", "../textures/wood.png"},
+                                           Case{"model/my wood.png", "my%20wood.png"},
+                                           Case{"model/100%.png", "100%.png"},
+                                           Case{"model/wood.png", "file:///C:/maps/wood.png"},
+                                           Case{"model/tex/wood.png", "//tex/wood.png"},
+                                           Case{"model/wood.png", "\"wood.png\" \"wood.gif\""},
+                                           Case{"model/wood.png", "  wood.png\r"}));
 
 TEST(FindTextureFile, ExactCaseWinsOverAnother) {
   const TemporaryFolder folder;

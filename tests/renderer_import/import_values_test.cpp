@@ -19,10 +19,10 @@ namespace {
 using test::gltf_quad;
 using test::GltfParts;
 using test::TemporaryFolder;
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 ImportResult imported(const std::string& name, std::string_view bytes) {
   const TemporaryFolder folder;
@@ -47,7 +47,7 @@ std::string texture_member() {
          R"("}], "textures": [{"source": 0}])";
 }
 
-constexpr const char* kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+constexpr const char* kThreeCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 /// A triangle of this material.
 ImportResult obj_with_material(const std::string& mtl) {
@@ -55,7 +55,7 @@ ImportResult obj_with_material(const std::string& mtl) {
   folder.write("a.mtl", "newmtl paint\n" + mtl);
   const std::vector<std::uint8_t> png = test::two_pixel_png();
   folder.write("Maps/Paint.png", {reinterpret_cast<const char*>(png.data()), png.size()});
-  return import_scene(folder.write("a.obj", std::string("mtllib a.mtl\n") + kTriangleObj +
+  return import_scene(folder.write("a.obj", std::string("mtllib a.mtl\n") + kThreeCorners +
                                                 "vt 0 0\nusemtl paint\nf 1/1 2/1 3/1\n"));
 }
 
@@ -168,9 +168,9 @@ TEST(ImportGltf, UnlitMaterialsStayUnlit) {
 
 TEST(ImportGltf, VertexColoursAreLinear) {
   EXPECT_THAT(gltf_scene({.vertex_colours = true}).vertices,
-              Each(testing::Field(&Vertex::colour, Rgba8{128, 64, 255, 255})));
+              Each(::testing::Field(&Vertex::colour, Rgba8{128, 64, 255, 255})));
   EXPECT_THAT(gltf_scene({}).vertices,
-              Each(testing::Field(&Vertex::colour, Rgba8{255, 255, 255, 255})));
+              Each(::testing::Field(&Vertex::colour, Rgba8{255, 255, 255, 255})));
 }
 
 TEST(ImportGltf, EmbeddedTextureIsDecoded) {
@@ -350,7 +350,7 @@ TEST(ImportObj, BrokenTextureIsAWarning) {
   folder.write("a.png", "no picture");
 
   const ImportResult result = import_scene(folder.write(
-      "a.obj", std::string("mtllib a.mtl\n") + kTriangleObj + "usemtl paint\nf 1 2 3\n"));
+      "a.obj", std::string("mtllib a.mtl\n") + kThreeCorners + "usemtl paint\nf 1 2 3\n"));
 
   EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("a.png")));
   EXPECT_THAT(result.scene.textures, IsEmpty());
@@ -363,7 +363,7 @@ TEST(ImportObj, TexturesOverTheLimitAreLeftOut) {
   folder.write("a.png", bytes);
   folder.write("b.png", bytes);
   folder.write("a.mtl", "newmtl a\nKd 1 1 1\nmap_Kd a.png\nnewmtl b\nKd 1 1 1\nmap_Kd b.png\n");
-  const std::string file = folder.write("a.obj", std::string("mtllib a.mtl\n") + kTriangleObj +
+  const std::string file = folder.write("a.obj", std::string("mtllib a.mtl\n") + kThreeCorners +
                                                      "usemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n");
   ImportLimits limits;
 
@@ -380,13 +380,13 @@ TEST(ImportObj, VertexColoursAreKeptAndMeantAsSrgb) {
       imported("a.obj", "v 0 0 0 0.5 1 0\nv 1 0 0 0.5 1 0\nv 0 1 0 0.5 1 0\nf 1 2 3\n");
 
   EXPECT_THAT(result.scene.vertices,
-              Each(testing::Field(&Vertex::colour, Rgba8{128, 255, 0, 255})));
+              Each(::testing::Field(&Vertex::colour, Rgba8{128, 255, 0, 255})));
   EXPECT_EQ(result.scene.materials.at(0).base_colour, Eigen::Vector4f::Ones());
 }
 
 TEST(ImportObj, TextureCoordinatesCountFromTheLowerLeftInTheFile) {
   const Scene scene =
-      imported("a.obj", std::string(kTriangleObj) + "vt 0.25 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+      imported("a.obj", std::string(kThreeCorners) + "vt 0.25 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
           .scene;
 
   EXPECT_TRUE(vertex_at(scene, {0, 0, 0})->uv.isApprox(Eigen::Vector2f(0.25f, 1)));
@@ -394,12 +394,12 @@ TEST(ImportObj, TextureCoordinatesCountFromTheLowerLeftInTheFile) {
 }
 
 TEST(ImportObj, DoesNotStateItsUnit) {
-  EXPECT_EQ(imported("a.obj", std::string(kTriangleObj) + "f 1 2 3\n").scene.metres_per_unit,
+  EXPECT_EQ(imported("a.obj", std::string(kThreeCorners) + "f 1 2 3\n").scene.metres_per_unit,
             std::nullopt);
 }
 
 TEST(ImportObj, MissingNormalsAreComputed) {
-  const Scene scene = imported("a.obj", std::string(kTriangleObj) + "f 1 2 3\n").scene;
+  const Scene scene = imported("a.obj", std::string(kThreeCorners) + "f 1 2 3\n").scene;
 
   for (const Vertex& vertex : scene.vertices)
     EXPECT_TRUE(vertex.normal_in_node.isApprox(Eigen::Vector3f::UnitZ()));
@@ -407,7 +407,8 @@ TEST(ImportObj, MissingNormalsAreComputed) {
 
 TEST(ImportObj, NormalsAreMadeUnitVectorsAndBrokenOnesReplaced) {
   const Scene scene =
-      imported("a.obj", std::string(kTriangleObj) + "vn 0 0 5\nvn 0 0 0\nf 1//1 2//1 3//2\n").scene;
+      imported("a.obj", std::string(kThreeCorners) + "vn 0 0 5\nvn 0 0 0\nf 1//1 2//1 3//2\n")
+          .scene;
 
   ASSERT_EQ(scene.vertices.size(), 3u);
   for (const Vertex& vertex : scene.vertices)

@@ -128,7 +128,7 @@ TEST(EmulatedSensor, shows_a_lamp_in_the_room_only_when_it_is_bright_enough) {
   EXPECT_EQ(dots_in(sensor.look(kMiddle)), 4);
 }
 
-class EmulatedRoomTest : public testing::Test {
+class EmulatedRoomTest : public ::testing::Test {
  protected:
   static Site site() { return read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml"); }
   HidRead read(HidDevice& device) { return device.read(buffer_, clock_.now()); }

@@ -16,11 +16,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-class OnlyBytes : public testing::Test {
+class OnlyBytes : public ::testing::Test {
  protected:
   OnlyBytes()
       : site_(read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml")),
-        file_(std::filesystem::path(testing::TempDir()) /
+        file_(std::filesystem::path(::testing::TempDir()) /
               ("only_bytes_" + std::to_string(getpid()) + ".vrec")) {}
   ~OnlyBytes() override { std::filesystem::remove(file_); }
 

@@ -13,12 +13,12 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 SensorView nothing_seen(Time) { return {}; }
 
-class EmulatedBusTest : public testing::Test {
+class EmulatedBusTest : public ::testing::Test {
  protected:
   EmulatedDevice& add(EmulatedDeviceOptions options = {}) {
     return bus_.add(std::move(options), nothing_seen);
@@ -115,7 +115,7 @@ TEST_F(EmulatedBusTest, says_why_a_device_cannot_be_opened) {
       bus_.open(path);
       FAIL() << path;
     } catch (const Error& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr(path));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(path));
     }
   }
 }
@@ -126,7 +126,7 @@ TEST_F(EmulatedBusTest, a_dolphin_bar_has_four_slots_of_which_the_empty_ones_ref
   const auto held = open(0), empty = open(3);
   EXPECT_TRUE(write(*held, "15 00"));
   EXPECT_FALSE(write(*empty, "15 00"));
-  EXPECT_THAT(read(*held, milliseconds(50)), testing::SizeIs(1));
+  EXPECT_THAT(read(*held, milliseconds(50)), ::testing::SizeIs(1));
   EXPECT_THAT(read(*empty, milliseconds(50)), IsEmpty());
 }
 
@@ -167,7 +167,7 @@ TEST_F(EmulatedBusTest, faults_do_what_their_names_say) {
   device.plug_extension(true);
   EXPECT_THAT(read(*wiimote, milliseconds(100)), ElementsAre("20 00 00 12 00 00 c0"));
   device.send_garbage(20);
-  EXPECT_THAT(read(*wiimote, milliseconds(100)), testing::SizeIs(20));
+  EXPECT_THAT(read(*wiimote, milliseconds(100)), ::testing::SizeIs(20));
   device.set_battery(0);
   EXPECT_THAT(read(*wiimote, milliseconds(100)), ElementsAre("gone"));
 }
@@ -193,7 +193,7 @@ TEST_F(EmulatedBusTest, the_kernel_stops_a_stream_when_the_battery_is_read) {
   EXPECT_GE(read(*wiimote, milliseconds(500)).size(), 48u);
   device.read_battery();
   const auto last = read(*wiimote, milliseconds(500));
-  EXPECT_THAT(last, testing::Contains("20 00 00 10 00 00 c0"));
+  EXPECT_THAT(last, ::testing::Contains("20 00 00 10 00 00 c0"));
   EXPECT_EQ(last.back(), "30 00 00");
   EXPECT_THAT(read(*wiimote, milliseconds(500)), IsEmpty());
 }

@@ -6,9 +6,9 @@
 namespace vindu {
 namespace {
 
-using testing::ElementsAre;
-using testing::Eq;
-using testing::Optional;
+using ::testing::ElementsAre;
+using ::testing::Eq;
+using ::testing::Optional;
 
 constexpr double kFrom3m = 1.0 / 9;
 
@@ -85,9 +85,10 @@ TEST(EmulatedCamera, lets_a_reflection_win_a_slot_when_the_gain_makes_all_equall
   std::vector<SensorSpot> spots = spots_at({{100, 500}, {200, 510}, {300, 520}, {400, 530}});
   spots.push_back({600, 20, 0.9 * kFrom3m});  // a reflection, in a row that is read first
   const SensorDot shown_by_maximum{600, 20, 4};
-  EXPECT_THAT(camera_with(kLevel4).track(spots),
-              testing::Not(testing::Contains(Optional(testing::Field(&SensorDot::x_px, 600)))));
-  EXPECT_THAT(camera_with(kMaximum).track(spots), testing::Contains(Optional(shown_by_maximum)));
+  EXPECT_THAT(
+      camera_with(kLevel4).track(spots),
+      ::testing::Not(::testing::Contains(Optional(::testing::Field(&SensorDot::x_px, 600)))));
+  EXPECT_THAT(camera_with(kMaximum).track(spots), ::testing::Contains(Optional(shown_by_maximum)));
 }
 
 TEST(EmulatedCamera, does_not_answer_without_power_or_beyond_its_registers) {

@@ -11,11 +11,11 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 /// The kernel on a wire without delay to an emulated Wiimote.
-class KernelOnAWire : public testing::Test {
+class KernelOnAWire : public ::testing::Test {
  protected:
   /// What the kernel writes in this time; memory writes without the zeros that fill them up.
   std::vector<std::string> run(Duration time, bool plus = false) {
@@ -74,8 +74,8 @@ TEST_F(KernelOnAWire, looks_for_a_motion_plus_every_four_seconds) {
   start();
   const std::vector<std::string> look = {"17 04 a4 00 fa 00 06", "16 04 a6 00 f0 01 55",
                                          "17 04 a6 00 fa 00 06"};
-  EXPECT_THAT(run(seconds(4)), testing::ElementsAreArray(look));
-  EXPECT_THAT(run(seconds(4)), testing::ElementsAreArray(look));
+  EXPECT_THAT(run(seconds(4)), ::testing::ElementsAreArray(look));
+  EXPECT_THAT(run(seconds(4)), ::testing::ElementsAreArray(look));
 }
 
 TEST_F(KernelOnAWire, does_not_look_for_a_motion_plus_that_is_inside) {

@@ -11,14 +11,14 @@ namespace vindu {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 std::string failed_read(const std::string& error, const std::string& address) {
   return "21 00 00 f" + error + " " + address + times(16, "00");
 }
 
-class EmulatedMemoryTest : public testing::Test {
+class EmulatedMemoryTest : public ::testing::Test {
  protected:
   EmulatorHost host;
 };
@@ -42,10 +42,11 @@ TEST_F(EmulatedMemoryTest, sends_no_data_reports_while_it_is_being_read) {
   host.send("12 04 30");
   host.run(milliseconds(51));
   host.send("17 00 00 00 00 01 00");  // 16 pieces, 5 ms from one to the next
-  EXPECT_THAT(host.run(milliseconds(78)),
-              testing::AllOf(testing::SizeIs(15), testing::Each(testing::StartsWith("21"))));
+  EXPECT_THAT(
+      host.run(milliseconds(78)),
+      ::testing::AllOf(::testing::SizeIs(15), ::testing::Each(::testing::StartsWith("21"))));
   host.run(milliseconds(2));
-  EXPECT_THAT(host.run(milliseconds(30)), testing::Each("30 00 00"));
+  EXPECT_THAT(host.run(milliseconds(30)), ::testing::Each("30 00 00"));
 }
 
 TEST_F(EmulatedMemoryTest, keeps_what_was_written_to_the_eeprom) {

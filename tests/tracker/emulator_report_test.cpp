@@ -8,10 +8,10 @@ namespace vindu {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::Each;
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 // Up and A; x 513, y 510, z 618 of 10 bits with zeros of 512 and 104 to the g; dots of size 4 at
 // (255, 1), of size 3 at (511, 384) and of size 2 at (767, 513), the brightest first.
@@ -40,7 +40,7 @@ struct Case {
   std::string mode, camera_mode, report;
 };
 
-class EmulatedReports : public testing::TestWithParam<Case> {};
+class EmulatedReports : public ::testing::TestWithParam<Case> {};
 
 TEST_P(EmulatedReports, have_the_bytes_worked_out_by_hand) {
   EmulatorHost host(camera_on());
@@ -51,19 +51,18 @@ TEST_P(EmulatedReports, have_the_bytes_worked_out_by_hand) {
 
 INSTANTIATE_TEST_SUITE_P(
     , EmulatedReports,
-    testing::Values(Case{"30", "03", "30 08 08"},
-                    // 513 = 0x201: 80 and 01, 510 = 0x1fe: 7f and 1., 618 = 0x26a: 9a and 1.
-                    Case{"31", "03", "31 28 68 80 7f 9a"},
-                    Case{"32", "03", "32 08 08" + times(8, "ff")},
-                    // (0x0ff, 0x001) 4, (0x1ff, 0x180) 3: 01 01 0011, (0x2ff, 0x201) 2: 10 10 0010
-                    Case{"33", "03", "33 28 68 80 7f 9a ff 01 04 ff 80 53 ff 01 a2 ff ff ff"},
-                    Case{"34", "03", "34 08 08" + times(19, "ff")},
-                    Case{"35", "03", "35 28 68 80 7f 9a" + times(16, "ff")},
-                    // high bits y1 x1 y2 x2: 00 00 01 01, 10 10 11 11
-                    Case{"36", "01", "36 08 08 ff 01 05 ff 80 ff 01 af ff ff" + times(9, "ff")},
-                    Case{"37", "01",
-                         "37 28 68 80 7f 9a ff 01 05 ff 80 ff 01 af ff ff" + times(6, "ff")},
-                    Case{"3d", "03", "3d" + times(21, "ff")}),
+    ::testing::Values(
+        Case{"30", "03", "30 08 08"},
+        // 513 = 0x201: 80 and 01, 510 = 0x1fe: 7f and 1., 618 = 0x26a: 9a and 1.
+        Case{"31", "03", "31 28 68 80 7f 9a"}, Case{"32", "03", "32 08 08" + times(8, "ff")},
+        // (0x0ff, 0x001) 4, (0x1ff, 0x180) 3: 01 01 0011, (0x2ff, 0x201) 2: 10 10 0010
+        Case{"33", "03", "33 28 68 80 7f 9a ff 01 04 ff 80 53 ff 01 a2 ff ff ff"},
+        Case{"34", "03", "34 08 08" + times(19, "ff")},
+        Case{"35", "03", "35 28 68 80 7f 9a" + times(16, "ff")},
+        // high bits y1 x1 y2 x2: 00 00 01 01, 10 10 11 11
+        Case{"36", "01", "36 08 08 ff 01 05 ff 80 ff 01 af ff ff" + times(9, "ff")},
+        Case{"37", "01", "37 28 68 80 7f 9a ff 01 05 ff 80 ff 01 af ff ff" + times(6, "ff")},
+        Case{"3d", "03", "3d" + times(21, "ff")}),
     [](const auto& tested) { return "mode_" + tested.param.mode; });
 
 TEST(EmulatedReport, of_full_dots_is_a_pair_that_shares_out_the_accelerometer) {
@@ -83,7 +82,7 @@ TEST(EmulatedReport, both_of_a_pair_show_one_sample) {
   EmulatorHost host(camera_on());
   host.view = three_dots();
   host.answer(write_of("b0 00 33", "05"));
-  ASSERT_THAT(stream(host, "3e", 1), ElementsAre(testing::StartsWith("3e")));
+  ASSERT_THAT(stream(host, "3e", 1), ElementsAre(::testing::StartsWith("3e")));
   host.view = {};
   EXPECT_THAT(host.run(milliseconds(10)),
               ElementsAre("3f 48 48 7f ff 01 a2 5e 3f 60 41 00 04" + times(9, "ff")));
@@ -136,7 +135,7 @@ TEST(EmulatedReport, with_an_unknown_id_is_not_taken_as_a_request) {
   host.run(milliseconds(50));
   for (const char* id : {"00", "2f", "38", "3c", "40", "ff"})
     EXPECT_TRUE(host.send(std::string("12 02 ") + id));
-  EXPECT_THAT(host.run(milliseconds(100)), testing::AllOf(SizeIs(10), Each("30 00 00")));
+  EXPECT_THAT(host.run(milliseconds(100)), ::testing::AllOf(SizeIs(10), Each("30 00 00")));
 }
 
 TEST(EmulatedReport, comes_two_hundred_times_a_second_on_a_fast_link) {
@@ -145,7 +144,7 @@ TEST(EmulatedReport, comes_two_hundred_times_a_second_on_a_fast_link) {
   EmulatorHost host(options);
   host.send("12 04 31");
   EXPECT_THAT(host.run(milliseconds(1000)),
-              SizeIs(testing::AllOf(testing::Ge(200u), testing::Le(202u))));
+              SizeIs(::testing::AllOf(::testing::Ge(200u), ::testing::Le(202u))));
 }
 
 TEST(EmulatedStatus, says_battery_lamps_and_camera_and_stops_the_stream) {

@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-class TrackerTest : public testing::Test {
+class TrackerTest : public ::testing::Test {
  protected:
   TrackerTest() : cameras_(2) {
     cameras_[0].room_from_camera = look_at({-1, 2.3, 5}, {0, 1.65, 2});

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "tracker/calibration/layout.h"
 #include "tracker/calibration/lens.h"
+#include "tracker/calibration/median.h"
 #include "tracker/camera_model.h"
 
 namespace vindu {
@@ -19,6 +20,7 @@ using Points = std::vector<Vec3>;
 using Order = std::vector<std::size_t>;
 
 constexpr double kGap_m = 0.03;      // by which rays of one LED may pass each other
+constexpr double kNoMisfit_m = 1;    // of no moments: worse than any
 constexpr double kMisfit_m = 0.02;   // rms of a moment's points from the helmet's
 constexpr std::size_t kTrials = 60;  // moments that choose the shape
 
@@ -129,13 +131,6 @@ double match(const Crossings& crossings, const std::vector<Order>& orders, const
   return least_m;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 1;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// The shape, as the first moment allows it, that the others fit best.
 Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<Order>& orders,
                     const std::vector<Moment>& moments) {
@@ -150,7 +145,7 @@ Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<O
       Moment moment = moments[i];
       misfits_m.push_back(match(crossings[i], orders, *shape, moment));
     }
-    if (const double misfit_m = median(misfits_m); misfit_m < least_m)
+    if (const double misfit_m = median(misfits_m, kNoMisfit_m); misfit_m < least_m)
       least_m = misfit_m, best = *shape;
   }
   return best;
@@ -296,7 +291,8 @@ HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig
   std::vector<double> misfits_m;
   for (std::size_t i = 0; i < moments.size(); ++i)
     misfits_m.push_back(match(crossings[i], orders, shape, moments[i]));
-  result.led_sigma_mm = 1e3 * median(misfits_m) / std::sqrt(static_cast<double>(good.size()));
+  result.led_sigma_mm =
+      1e3 * median(misfits_m, kNoMisfit_m) / std::sqrt(static_cast<double>(good.size()));
   return result;
 }
 

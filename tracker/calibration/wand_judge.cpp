@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "tracker/calibration/median.h"
 #include "tracker/camera_model.h"
 
 namespace vindu {
@@ -15,13 +16,6 @@ namespace {
 
 constexpr int kFewestMoments = 60;
 constexpr double kLeastCoverage = 0.35;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// A point by least squares of its pixels in all views that have this LED, and its covariance.
 struct SolvedPoint {

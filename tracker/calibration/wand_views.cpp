@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "tracker/calibration/median.h"
+
 namespace vindu {
 namespace {
 
@@ -68,12 +70,6 @@ std::optional<WandView> view_in(const CameraTrack::Picture& picture,
   return view;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Median of the slopes between all pairs of pictures (Theil and Sen), which a false dot in one of
 /// them does not move.
 Vec2 slope(const std::vector<std::pair<double, Vec2>>& track) {
@@ -85,7 +81,7 @@ Vec2 slope(const std::vector<std::pair<double, Vec2>>& track) {
         if (track[j].first - track[i].first > 0.004)
           slopes.push_back((track[j].second - track[i].second)[axis] /
                            (track[j].first - track[i].first));
-    speed[axis] = slopes.empty() ? 0 : median(slopes);
+    speed[axis] = median(std::move(slopes));
   }
   return speed;
 }

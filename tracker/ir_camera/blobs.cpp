@@ -8,14 +8,14 @@ namespace vindu {
 namespace {
 
 /// What is summed up over the pixels of a blob.
-struct Blob {
+struct WeighedBlob {
   std::int64_t weight = 0;
   std::int64_t weighted_x = 0;
   std::int64_t weighted_y = 0;
   int area_px = 0;
   bool cut = false;
 
-  void add(const Blob& other) {
+  void add(const WeighedBlob& other) {
     weight += other.weight;
     weighted_x += other.weighted_x;
     weighted_y += other.weighted_y;
@@ -53,7 +53,7 @@ class BlobMap {
   }
 
   /// All blobs, in the order of their first pixels; those united into others have no area.
-  const std::vector<Blob>& blobs() const { return blobs_; }
+  const std::vector<WeighedBlob>& blobs() const { return blobs_; }
 
  private:
   void add_row(int y) {
@@ -74,8 +74,8 @@ class BlobMap {
     }
   }
 
-  Blob sum_of(const std::uint8_t* row, int y, int begin, int end) const {
-    Blob sum;
+  WeighedBlob sum_of(const std::uint8_t* row, int y, int begin, int end) const {
+    WeighedBlob sum;
     for (int x = begin; x < end; ++x) {
       const int weight = row[x] - threshold_;
       sum.weight += weight;
@@ -103,7 +103,7 @@ class BlobMap {
   const GreyView& picture_;
   std::uint8_t threshold_;
   std::vector<Run> above_, current_;
-  std::vector<Blob> blobs_;
+  std::vector<WeighedBlob> blobs_;
   std::vector<std::size_t> parents_;
 };
 
@@ -111,15 +111,16 @@ class BlobMap {
 
 DotList detect_blobs(const GreyView& picture, const BlobOptions& options) {
   const BlobMap map(picture, static_cast<std::uint8_t>(options.threshold));
-  std::vector<Blob> found;
-  for (const Blob& blob : map.blobs())
+  std::vector<WeighedBlob> found;
+  for (const WeighedBlob& blob : map.blobs())
     if (!blob.cut && blob.area_px >= options.min_area_px && blob.area_px <= options.max_area_px)
       found.push_back(blob);
   const std::size_t count =
       std::min({found.size(), static_cast<std::size_t>(options.max_dots), kMaxDots});
-  const auto rank = [](const Blob& blob) {  // the same for the same blobs, whatever the sort does
-    return std::tuple(-blob.weight, blob.weighted_y, blob.weighted_x);
-  };
+  const auto rank =
+      [](const WeighedBlob& blob) {  // the same for the same blobs, whatever the sort does
+        return std::tuple(-blob.weight, blob.weighted_y, blob.weighted_x);
+      };
   std::ranges::partial_sort(found, found.begin() + static_cast<std::ptrdiff_t>(count), {}, rank);
   DotList dots;
   for (std::size_t i = 0; i < count; ++i) {

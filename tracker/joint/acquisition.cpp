@@ -12,8 +12,6 @@
 namespace vindu {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
-
 using Labels = std::vector<std::vector<int>>;
 
 /// Pairs of views with dots, the widest apart first: they fix depth best.
@@ -79,7 +77,7 @@ class HeadSearch::Contest {
     std::optional<PoseFit> fit;
     Labels labels;
     for (std::size_t round = 0; round < kRounds; ++round) {
-      if (round > 0 && settled_cost_ < kFar && hopeless(pose)) return;
+      if (round > 0 && settled_cost_ < kNoPair && hopeless(pose)) return;
       labels = label(pose, kGates_px[round]);
       if (std::ranges::find(tried_[round], labels) != tried_[round].end()) return;
       tried_[round].push_back(labels);
@@ -111,7 +109,7 @@ class HeadSearch::Contest {
 
  private:
   /// Whether some pose is fixed by the dots and leaves none over: further pairs can only repeat it.
-  bool settled() const { return settled_cost_ < kFar; }
+  bool settled() const { return settled_cost_ < kNoPair; }
 
   std::vector<Rigid3> of_pair(const std::pair<std::size_t, std::size_t>& pair) const {
     return candidates_from_pair(cameras_, views_[pair.first], views_[pair.second], leds_,
@@ -129,7 +127,7 @@ class HeadSearch::Contest {
   /// Of each dot (row) and LED (column): the square of their distance, in sigmas.
   CostMatrix distances(const CameraView& view, const Rigid3& pose, double sigma_px) const {
     CostMatrix costs = CostMatrix::Constant(static_cast<Eigen::Index>(view.dots_px.size()),
-                                            static_cast<Eigen::Index>(leds_.size()), kFar);
+                                            static_cast<Eigen::Index>(leds_.size()), kNoPair);
     for (Eigen::Index led = 0; led < costs.cols(); ++led) {
       const auto dot = dot_of_led(camera(view), pose, leds_[static_cast<std::size_t>(led)]);
       if (!dot) continue;
@@ -185,7 +183,7 @@ class HeadSearch::Contest {
     }
     if (all_explained && level == TrackingLevel::six_dof)
       settled_cost_ = std::min(settled_cost_, cost);
-    entries_.push_back({fit, level, std::move(labels), cost, kFar});
+    entries_.push_back({fit, level, std::move(labels), cost, kNoPair});
   }
 
   static constexpr std::size_t kRounds = 3;
@@ -208,7 +206,7 @@ class HeadSearch::Contest {
   std::size_t next_pose_ = 0;
   std::array<std::vector<Labels>, kRounds> tried_;
   std::vector<FoundHead> entries_;
-  double settled_cost_ = kFar;  // of the best pose that leaves no dot over
+  double settled_cost_ = kNoPair;  // of the best pose that leaves no dot over
 };
 
 HeadSearch::HeadSearch(std::span<const CameraModel> cameras, std::vector<CameraView> views,

@@ -1,13 +1,10 @@
 #include "tracker/joint/assignment.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 namespace vindu {
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 // Each row has, right of the real columns, one column of its own that means none.
 class Augmenter {
@@ -22,7 +19,7 @@ class Augmenter {
         column_price_(row_of_.size(), 0) {}
 
   void add_row(int row) {
-    std::vector<double> distance(row_of_.size(), kFar);
+    std::vector<double> distance(row_of_.size(), kNoPair);
     std::vector<int> from(row_of_.size(), -1);  // the column before, on the path
     std::vector<bool> done(row_of_.size(), false);
     int column = -1, current = row;
@@ -53,9 +50,9 @@ class Augmenter {
   static std::size_t index(int value) { return static_cast<std::size_t>(value); }
 
   double cost(int row, int column) const {
-    if (column >= real_) return column == real_ + row ? none_ : kFar;
+    if (column >= real_) return column == real_ + row ? none_ : kNoPair;
     const double cost = costs_(row, column);
-    return cost < none_ ? cost : kFar;
+    return cost < none_ ? cost : kNoPair;
   }
 
   void reach(int row, int through, double length, const std::vector<bool>& done,

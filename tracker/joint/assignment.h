@@ -2,11 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace vindu {
 
-/// Row: a dot; column: an LED. Anything as large as the price of none, infinity too, is no pair.
+constexpr double kNoPair = std::numeric_limits<double>::infinity();
+
+/// Row: a dot; column: an LED. Anything as large as the price of none, kNoPair too, is no pair.
 using CostMatrix = Eigen::MatrixXd;
 
 /// For every row its column, or -1; the sum of the costs, where each row without a column costs

@@ -2,14 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
 
 #include "tracker/joint/assignment.h"
 
 namespace vindu {
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// An LED of a tracked head and where its dot is expected.
 struct Column {
@@ -67,8 +64,6 @@ double distance2(const Eigen::Matrix2d& covariance_px2, const Vec2& residual_px)
   return residual_px.dot(covariance_px2.inverse() * residual_px);
 }
 
-Vec2 position(const Dot& dot) { return {dot.x_px, dot.y_px}; }
-
 std::vector<Column> columns_of(const CameraModel& camera,
                                std::span<const std::vector<Vec3>> leds_of_heads,
                                std::span<const HeadTrack> heads) {
@@ -85,7 +80,7 @@ std::vector<Column> columns_of(const CameraModel& camera,
 bool allowed(const TimedDots& seen, std::size_t dot, const Column& column) {
   constexpr double kMustBe_px = 6;
   return !seen.masked[dot] ||
-         (position(seen.dots[dot]) - column.expected.raw_px).norm() < kMustBe_px;
+         (raw_px_of(seen.dots[dot]) - column.expected.raw_px).norm() < kMustBe_px;
 }
 
 template <class Cost>
@@ -96,8 +91,8 @@ CostMatrix costs_of(const TimedDots& seen, const std::vector<Column>& columns, C
     for (std::size_t c = 0; c < columns.size(); ++c)
       costs(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) =
           allowed(seen, i, columns[c])
-              ? cost(columns[c], position(seen.dots[i]) - columns[c].expected.raw_px)
-              : kFar;
+              ? cost(columns[c], raw_px_of(seen.dots[i]) - columns[c].expected.raw_px)
+              : kNoPair;
   return costs;
 }
 
@@ -137,7 +132,7 @@ std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& ca
                                     std::span<HeadTrack> heads, const AssociationOptions& options) {
   const std::vector<Column> columns = columns_of(camera, leds_of_heads, heads);
   const auto in_sigmas = [&](const Column& column, const Vec2& residual_px) {
-    if (residual_px.norm() > options.farthest_px) return kFar;
+    if (residual_px.norm() > options.farthest_px) return kNoPair;
     return distance2(column.expected.covariance_px2 + noise_of(seen, column.expected), residual_px);
   };
   const CostMatrix costs = costs_of(seen, columns, in_sigmas);
@@ -151,11 +146,11 @@ std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& ca
                    leds_of_heads[static_cast<std::size_t>(at_head)][static_cast<std::size_t>(led)]);
     if (!expected) continue;
     const Eigen::Matrix2d noise = noise_of(seen, *expected);
-    const Vec2 residual = position(seen.dots[i]) - expected->raw_px;
+    const Vec2 residual = raw_px_of(seen.dots[i]) - expected->raw_px;
     const double square = distance2(expected->covariance_px2 + noise, residual);
     if (square > options.gate) continue;
     const double factor = well_seen(head, seen.captured, options) ? 1 : options.weak;
-    correct(*head.state, *expected, position(seen.dots[i]),
+    correct(*head.state, *expected, raw_px_of(seen.dots[i]),
             noise_of(seen, *expected, factor * seen.distrust));
     note(head, seen, led);
     accepted.push_back({i, at_head, led, residual, expected->raw_px_s, square});
@@ -173,7 +168,7 @@ bool displaced(const TimedDots& seen, const std::vector<Column>& columns) {
   const auto pairs = pairs_of(costs_of(seen, columns, in_pixels), kFarthest_px * kFarthest_px);
   if (pairs.size() < 2) return false;
   const auto shift_of = [&](const auto& pair) -> Vec2 {
-    return position(seen.dots[pair.first]) - columns[pair.second].expected.raw_px;
+    return raw_px_of(seen.dots[pair.first]) - columns[pair.second].expected.raw_px;
   };
   Vec2 mean = Vec2::Zero();
   for (const auto& pair : pairs) mean += shift_of(pair) / static_cast<double>(pairs.size());

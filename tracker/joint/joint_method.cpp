@@ -25,8 +25,6 @@ constexpr Duration kHeld = Milliseconds(250);
 constexpr Duration kLost = std::chrono::seconds(2);
 constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
 
-Vec2 position(const Dot& dot) { return {dot.x_px, dot.y_px}; }
-
 /// The fewer dots agree, the more often they must.
 int looks_needed(const FoundHead& found) {
   std::ptrdiff_t dots = 0;
@@ -73,7 +71,7 @@ void JointMethod::absorb(const Observation& observation) {
                 .distrust = eye.watch.distrust(),
                 .dots = {}};
   for (const Dot& dot : observation.dots) {
-    entry.seen.masked[entry.seen.dots.size()] = eye.statics.masked(position(dot));
+    entry.seen.masked[entry.seen.dots.size()] = eye.statics.masked(raw_px_of(dot));
     entry.seen.dots.push_back(dot);
   }
   insert(std::move(entry));
@@ -145,7 +143,7 @@ void JointMethod::judge(Entry& entry) {
   std::array<bool, kMaxDots> explained{};
   for (const AcceptedDot& dot : entry.association.accepted) explained[dot.dot] = true;
   for (std::size_t i = 0; i < entry.seen.dots.size(); ++i) {
-    const Vec2 raw_px = position(entry.seen.dots[i]);
+    const Vec2 raw_px = raw_px_of(entry.seen.dots[i]);
     if (explained[i])
       eye.statics.release(raw_px, entry.seen.captured);
     else
@@ -195,7 +193,7 @@ CameraView JointMethod::view_of(const Entry& entry, std::size_t head, Duration a
   for (const AcceptedDot& dot : entry.association.accepted)
     excluded[dot.dot] = dot.head != static_cast<int>(head);
   for (std::size_t i = 0; i < seen.dots.size(); ++i)
-    if (!excluded[i]) view.dots_px.push_back(position(seen.dots[i]));
+    if (!excluded[i]) view.dots_px.push_back(raw_px_of(seen.dots[i]));
   return view;
 }
 

@@ -20,7 +20,7 @@ constexpr std::size_t kEnableAt = 0x30;
 constexpr std::size_t kModeAt = 0x33;
 constexpr std::size_t kDotsAt = 0x37;
 constexpr std::size_t kDotBytes = 36;
-constexpr std::uint8_t kTracking = 0x08;
+constexpr std::uint8_t kStarted = 0x08;
 
 // The model of the sensitivity; only its directions are documented, its figures are ours. A cluster
 // seen from 3 m has diameter 3 with the Wii's levels 3 and 4, as real ones have.
@@ -30,7 +30,7 @@ constexpr double kFaintest = 1.0 / 64;
 constexpr double kFinest = 1.0 / 36;  // below, light falls on one pixel: its place is the pixel's
 constexpr double kSaturated = 0.2;    // above, all are equally bright to the logic
 constexpr double kSmallestUnit = 1.0 / 3;  // of register 0x1b, in diameters
-constexpr double kFarthestStep_px = 64;    // that a dot moves between two pictures
+constexpr double kLeavesSlot_px = 64;      // that a dot moves between two pictures
 
 double diameter_of(double signal) { return kDiameter * std::sqrt(signal); }
 
@@ -94,7 +94,7 @@ void EmulatedCamera::start(std::uint8_t mode) {
   registers_[kGainAt] = 0x36;
   registers_[kSmallestBlobAt] = 0x03;
   registers_[kModeAt] = mode;
-  registers_[kEnableAt] = kTracking;
+  registers_[kEnableAt] = kStarted;
 }
 
 bool EmulatedCamera::write(std::uint8_t offset, std::span<const std::uint8_t> bytes) {
@@ -114,7 +114,7 @@ std::uint8_t EmulatedCamera::mode() const { return reg(kModeAt); }
 void EmulatedCamera::expose(std::span<const SensorSpot> spots) {
   const auto dots = registers_.begin() + kDotsAt;
   std::fill_n(dots, kDotBytes, std::uint8_t{0xff});
-  if (!powered_ || !logic_ || reg(kEnableAt) != kTracking) return;
+  if (!powered_ || !logic_ || reg(kEnableAt) != kStarted) return;
   track(spots);
   if (mode() == 1) std::ranges::copy(basic_dot_bytes(slots_), dots);
   if (mode() == 3) std::ranges::copy(extended_dot_bytes(slots_), dots);
@@ -160,7 +160,7 @@ std::array<std::optional<EmulatedCamera::Blob>, 4> EmulatedCamera::in_slots(
     std::vector<Blob> blobs) const {
   std::array<std::optional<Blob>, 4> kept;
   while (true) {
-    double nearest_px = kFarthestStep_px;
+    double nearest_px = kLeavesSlot_px;
     std::size_t from = 0, to = 4;
     for (std::size_t slot = 0; slot < 4; ++slot)
       for (std::size_t i = 0; slots_[slot] && !kept[slot] && i < blobs.size(); ++i) {

@@ -5,13 +5,13 @@
 namespace vindu {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using ReportBytes = std::vector<std::uint8_t>;
 
 constexpr Duration kAnswerTimeout = std::chrono::seconds(1);
 constexpr Duration kMotionPlusPeriod = std::chrono::seconds(4);
 
-Bytes write_register(std::uint8_t chip, std::uint8_t offset, const Bytes& data) {
-  Bytes bytes(22);
+ReportBytes write_bytes(std::uint8_t chip, std::uint8_t offset, const ReportBytes& data) {
+  ReportBytes bytes(22);
   const std::uint8_t head[] = {0x16, 0x04,   chip,
                                0x00, offset, static_cast<std::uint8_t>(data.size())};
   std::ranges::copy(head, bytes.begin());
@@ -19,7 +19,7 @@ Bytes write_register(std::uint8_t chip, std::uint8_t offset, const Bytes& data) 
   return bytes;
 }
 
-Bytes read_identity(std::uint8_t chip) { return {0x17, 0x04, chip, 0x00, 0xfa, 0x00, 0x06}; }
+ReportBytes read_identity(std::uint8_t chip) { return {0x17, 0x04, chip, 0x00, 0xfa, 0x00, 0x06}; }
 
 }  // namespace
 
@@ -38,10 +38,10 @@ HidWiimoteKernel::HidWiimoteKernel(const KernelOptions& options, Time found)
 // the first was taken.
 HidWiimoteKernel::Steps HidWiimoteKernel::detect_extensions() const {
   const Then timer = options_.motion_plus_inside ? Then::nothing : Then::start_timer;
-  return {{write_register(0xa4, 0xf0, {0x55}), 0x22, 1},
-          {write_register(0xa4, 0xfb, {0x00}), 0x22},
-          {write_register(0xa6, 0xf0, {0x55}), 0x22, 1},
-          {write_register(0xa6, 0xfb, {0x00}), 0x22},
+  return {{write_bytes(0xa4, 0xf0, {0x55}), 0x22, 1},
+          {write_bytes(0xa4, 0xfb, {0x00}), 0x22},
+          {write_bytes(0xa6, 0xf0, {0x55}), 0x22, 1},
+          {write_bytes(0xa6, 0xfb, {0x00}), 0x22},
           {read_identity(0xa6), 0x21},
           {read_identity(0xa4), 0x21, 0, timer},
           {{0x15, 0x00}}};
@@ -50,8 +50,8 @@ HidWiimoteKernel::Steps HidWiimoteKernel::detect_extensions() const {
 void HidWiimoteKernel::check(Time at) {
   schedule({{read_identity(0xa4), 0x21}}, at);
   if (options_.motion_plus_inside) return;
-  schedule({{write_register(0xa6, 0xf0, {0x55}), 0x22, 1},
-            {write_register(0xa6, 0xfb, {0x00}), 0x22},
+  schedule({{write_bytes(0xa6, 0xf0, {0x55}), 0x22, 1},
+            {write_bytes(0xa6, 0xfb, {0x00}), 0x22},
             {read_identity(0xa6), 0x21, 0, Then::start_timer}},
            at);
 }
@@ -83,7 +83,7 @@ void HidWiimoteKernel::answered(bool well, Time at) {
   go_on(at);
 }
 
-void HidWiimoteKernel::write(Bytes bytes, Time at) {
+void HidWiimoteKernel::write(ReportBytes bytes, Time at) {
   const Duration reaction = from_seconds(
       random_.uniform(seconds(options_.reaction_shortest), seconds(options_.reaction_longest)));
   const Time not_before = writes_.empty() ? Time::min() : writes_.back().at;
@@ -146,11 +146,11 @@ void HidWiimoteKernel::open_camera_node(Time at) {
   if (camera_) return;
   schedule({{{0x13, 0x06}, 0x22, 7},
             {{0x1a, 0x06}, 0x22, 6},
-            {write_register(0xb0, 0x30, {0x01}), 0x22, 5},
-            {write_register(0xb0, 0x00, {0x02, 0, 0, 0x71, 0x01, 0, 0xaa, 0, 0x64}), 0x22, 4},
-            {write_register(0xb0, 0x1a, {0x63, 0x03}), 0x22, 3},
-            {write_register(0xb0, 0x33, {0x01}), 0x22, 2},
-            {write_register(0xb0, 0x30, {0x08}), 0x22, 1},
+            {write_bytes(0xb0, 0x30, {0x01}), 0x22, 5},
+            {write_bytes(0xb0, 0x00, {0x02, 0, 0, 0x71, 0x01, 0, 0xaa, 0, 0x64}), 0x22, 4},
+            {write_bytes(0xb0, 0x1a, {0x63, 0x03}), 0x22, 3},
+            {write_bytes(0xb0, 0x33, {0x01}), 0x22, 2},
+            {write_bytes(0xb0, 0x30, {0x08}), 0x22, 1},
             {{}, 0, 0, Then::camera_on}},
            at);
 }

@@ -23,7 +23,7 @@ constexpr std::uint8_t kCameraChip = 0x58;
 
 constexpr std::size_t kInitialiseAt = 0xf0;
 constexpr std::size_t kIdentityAt = 0xfa;
-constexpr std::size_t kModeAt = 0xfe;
+constexpr std::size_t kMotionPlusModeAt = 0xfe;
 constexpr std::uint8_t kInitialise = 0x55;
 
 constexpr std::array<std::uint8_t, 6> kNunchuk = {0x00, 0x00, 0xa4, 0x20, 0x00, 0x00};
@@ -91,7 +91,7 @@ MemoryError EmulatedMemory::write(std::uint8_t flags, std::uint32_t address,
   // extension's place, and 0x55 at 0xf0 there sends it back.
   if (offset < kIdentityAt) std::ranges::copy(bytes, registers->begin() + offset);
   if (registers != &motion_plus_) return MemoryError::none;
-  const bool wakes = slave == kMotionPlusChip && offset == kModeAt;
+  const bool wakes = slave == kMotionPlusChip && offset == kMotionPlusModeAt;
   const bool sleeps = slave == kExtensionChip && offset == kInitialiseAt && bytes[0] == kInitialise;
   if (wakes || sleeps) {
     motion_plus_active_ = wakes;

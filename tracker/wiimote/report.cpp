@@ -6,14 +6,14 @@
 namespace vindu {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
 
 constexpr int kRows_px = 768;
 constexpr std::size_t kFullDotSize = 9;
 
 // What a camera sends that is off, or set to another format than the report's (xwiimote,
 // doc/PROTOCOL). No four dots have these bytes.
-bool says_nothing(Bytes dots) {
+bool says_nothing(ByteView dots) {
   return (dots[0] == 0xff || dots[0] == 0x00) &&
          std::ranges::all_of(dots, [&](std::uint8_t byte) { return byte == dots[0]; });
 }
@@ -24,30 +24,30 @@ std::optional<IrDot> dot_at(int x_px, int y_px, int size) {
 }
 
 // "x y [y:9-8 x:9-8 size:3-0]"
-std::optional<IrDot> extended_dot(Bytes bytes) {
+std::optional<IrDot> extended_dot(ByteView bytes) {
   const int high = bytes[2];
   return dot_at(bytes[0] | (high << 4 & 0x300), bytes[1] | (high << 2 & 0x300), high & 0x0f);
 }
 
 // An extended dot, then "x_min y_min x_max y_max 0 intensity".
-std::optional<IrDot> full_dot(Bytes bytes) {
+std::optional<IrDot> full_dot(ByteView bytes) {
   std::optional<IrDot> dot = extended_dot(bytes);
   if (dot)
     dot->blob = Blob{bytes[3] & 0x7f, bytes[4] & 0x7f, bytes[5] & 0x7f, bytes[6] & 0x7f, bytes[8]};
   return dot;
 }
 
-IrSlots extended_slots(Bytes bytes) {
+IrSlots extended_slots(ByteView bytes) {
   IrSlots slots;
   for (std::size_t i = 0; i < slots.size(); ++i) slots[i] = extended_dot(bytes.subspan(3 * i));
   return slots;
 }
 
 // Two pairs of "x1 y1 [y1:9-8 x1:9-8 y2:9-8 x2:9-8] x2 y2".
-IrSlots basic_slots(Bytes bytes) {
+IrSlots basic_slots(ByteView bytes) {
   IrSlots slots;
   for (std::size_t pair = 0; pair < 2; ++pair) {
-    const Bytes b = bytes.subspan(5 * pair, 5);
+    const ByteView b = bytes.subspan(5 * pair, 5);
     slots[2 * pair] = dot_at(b[0] | (b[2] << 4 & 0x300), b[1] | (b[2] << 2 & 0x300), 0);
     slots[2 * pair + 1] = dot_at(b[3] | (b[2] << 8 & 0x300), b[4] | (b[2] << 6 & 0x300), 0);
   }
@@ -75,23 +75,23 @@ constexpr DataLayout kDataLayouts[] = {
     {22, 0, 0, 0x3d, {}},                  // 21 bytes of the extension, no buttons
 };
 
-Buttons buttons_of(Bytes bytes) {
+Buttons buttons_of(ByteView bytes) {
   return static_cast<Buttons>((bytes[1] & 0x1f) << 8 | (bytes[2] & 0x9f));
 }
 
 // The lowest bits lie among the buttons; y and z have nine.
-std::array<int, 3> acceleration_of(Bytes bytes) {
+std::array<int, 3> acceleration_of(ByteView bytes) {
   return {bytes[3] << 2 | (bytes[1] >> 5 & 3), bytes[4] << 2 | (bytes[2] >> 4 & 2),
           bytes[5] << 2 | (bytes[2] >> 5 & 2)};
 }
 
-DataReport data_report(const DataLayout& layout, Bytes bytes) {
+DataReport data_report(const DataLayout& layout, ByteView bytes) {
   DataReport report{.id = layout.id};
   if (layout.id != 0x3d) report.buttons = buttons_of(bytes);
   if (layout.acceleration_at) report.acceleration_raw = acceleration_of(bytes);
   if (layout.dots_at) {
     const bool basic = layout.format == IrFormat::basic;
-    const Bytes dots = bytes.subspan(layout.dots_at, basic ? 10 : 12);
+    const ByteView dots = bytes.subspan(layout.dots_at, basic ? 10 : 12);
     report.camera_silent = says_nothing(dots);
     report.slots = report.camera_silent ? IrSlots{}
                    : basic              ? basic_slots(dots)
@@ -100,7 +100,7 @@ DataReport data_report(const DataLayout& layout, Bytes bytes) {
   return report;
 }
 
-StatusReport status_report(Bytes bytes) {
+StatusReport status_report(ByteView bytes) {
   const int flags = bytes[3];
   return {.buttons = buttons_of(bytes),
           .battery_low = (flags & 0x01) != 0,
@@ -110,7 +110,7 @@ StatusReport status_report(Bytes bytes) {
           .battery = bytes[6]};
 }
 
-MemoryReport memory_report(Bytes bytes) {
+MemoryReport memory_report(ByteView bytes) {
   MemoryReport report{
       .buttons = buttons_of(bytes), .address = bytes[4] << 8 | bytes[5], .error = bytes[3] & 0x0f};
   if (report.error == 0) report.size = (bytes[3] >> 4) + 1;
@@ -118,10 +118,10 @@ MemoryReport memory_report(Bytes bytes) {
   return report;
 }
 
-HalfReport half_report(Bytes bytes) {
+HalfReport half_report(ByteView bytes) {
   const int b1 = bytes[1], b2 = bytes[2];
   const bool second = bytes[0] == 0x3f;
-  const Bytes dots = bytes.subspan(4, 2 * kFullDotSize);
+  const ByteView dots = bytes.subspan(4, 2 * kFullDotSize);
   HalfReport report{.second = second,
                     .buttons = buttons_of(bytes),
                     .acceleration_raw = bytes[3] << 2,
@@ -132,7 +132,7 @@ HalfReport half_report(Bytes bytes) {
   return report;
 }
 
-std::optional<Report> parse_sized(Bytes bytes, std::size_t& needed) {
+std::optional<Report> parse_sized(ByteView bytes, std::size_t& needed) {
   const auto fits = [&](std::size_t size) {
     needed = size;
     return bytes.size() >= size;

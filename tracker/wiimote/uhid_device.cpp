@@ -17,7 +17,7 @@
 namespace vindu {
 namespace {
 
-Error cannot_open(const std::string& node, int error) {
+Error cannot_open_uhid(const std::string& node, int error) {
   if (error == EACCES || error == EPERM)
     return Error({"you may not open it", node,
                   "run this as root, or allow it to yourself: sudo setfacl -m u:$USER:rw " + node});
@@ -106,7 +106,7 @@ bool wait_for_event(int file, Time until) {
 UhidDevice::UhidDevice(const HidInfo& identity, std::span<const std::uint8_t> report_descriptor,
                        const std::string& node)
     : file_(::open(node.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK)) {
-  if (file_ < 0) throw cannot_open(node, errno);
+  if (file_ < 0) throw cannot_open_uhid(node, errno);
   const uhid_event event = creation(identity, report_descriptor);
   if (send(file_, event, offsetof(uhid_event, u.create2.rd_data) + report_descriptor.size()))
     return;

@@ -96,7 +96,7 @@ TEST(HeadFilter, predicts_a_moving_head_and_leaves_a_still_one) {
   EXPECT_EQ(predicted(state, milliseconds(40)).room_from_head.translation.x(), 0);
 }
 
-class AssociationTest : public testing::Test {
+class AssociationTest : public ::testing::Test {
  protected:
   TimedDots seen_of(const Rigid3& head, int camera, Time time) const {
     TimedDots seen{.camera = camera, .captured = time, .dots = {}};

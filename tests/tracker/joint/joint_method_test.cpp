@@ -19,7 +19,7 @@ struct Report {
   Observation seen;
 };
 
-class JointMethodTest : public testing::Test {
+class JointMethodTest : public ::testing::Test {
  protected:
   JointMethodTest() {
     for (int i = 0; i < 2; ++i) {
