@@ -187,8 +187,8 @@ std::string model_file(const std::string& path) {
   return path.starts_with(kAsset) ? find_asset(path.substr(kAsset.size())) : path;
 }
 
-PackedScene read_model(const std::string& file) {
-  PackedScene packed = packed_scene(file);
+PackedScene read_model(const std::string& file, const std::stop_token& stop) {
+  PackedScene packed = packed_scene(file, stop);
   const SceneOutline& scene = packed.scene;
   for (const std::string& warning : packed.warnings) log_warning(scene.name, warning);
   log_debug(scene.name, std::to_string(scene.triangle_count()) + " triangles");
@@ -196,10 +196,10 @@ PackedScene read_model(const std::string& file) {
 }
 
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
-                       const Site& site, const std::string& clip) {
+                       const Site& site, const std::string& clip, const std::stop_token& stop) {
   const std::string wanted = model.empty() ? site.scene.model : model;
   const std::string file = wanted.empty() ? find_asset("show/show.glb") : wanted;
-  PackedScene packed = read_model(file);
+  PackedScene packed = read_model(file, stop);
   const int chosen = find_clip(clip_names(packed.scene), clip, file);
   LoadedScene loaded = place_as_wished(std::move(packed), model, placement, site);
   loaded.clip = chosen;

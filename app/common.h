@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -89,13 +90,14 @@ struct LoadedScene {
 /// A scene's path as tiles are told it, on this host: "asset:..." is part of every installation.
 std::string model_file(const std::string& path);
 
-/// A model, packed; warnings are logged.
-PackedScene read_model(const std::string& file);
+/// A model, packed; warnings are logged. Throws Error soon after a stop.
+PackedScene read_model(const std::string& file, const std::stop_token& stop = {});
 
 /// Reads a model and places it before the wall; warnings and the placement are logged. An empty
 /// name is the wall file's scene or, where it names none, the show. `clip`: see find_clip(). Throws
-/// Error for one that the model does not have.
+/// Error for one that the model does not have, and soon after a stop.
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
-                       const Site& site, const std::string& clip = "");
+                       const Site& site, const std::string& clip = "",
+                       const std::stop_token& stop = {});
 
 }  // namespace vindu::app

@@ -75,15 +75,16 @@ class PackingChild {
   PackingChild(const PackingChild&) = delete;
   PackingChild& operator=(const PackingChild&) = delete;
 
-  /// What it said until it closed its output; false when that takes longer.
-  bool listen(Time until, std::string& said) const {
+  /// What it said until it closed its output; false when that takes longer, or was stopped.
+  bool listen(Time until, const std::stop_token& stop, std::string& said) const {
+    constexpr long long kLook_ms = 50;  // for a stop
     const MonotonicClock clock;
     std::array<char, 4096> piece{};
     while (true) {
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - clock.now()).count();
-      if (left <= 0) return false;
+      if (left <= 0 || stop.stop_requested()) return false;
       pollfd waiting{.fd = output_, .events = POLLIN, .revents = 0};
-      if (poll(&waiting, 1, static_cast<int>(std::min<long long>(left, 1000))) == 0) continue;
+      if (poll(&waiting, 1, static_cast<int>(std::min<long long>(left, kLook_ms))) == 0) continue;
       const auto length = read(output_, piece.data(), piece.size());
       if (length <= 0) return true;
       if (said.size() < 65536) said.append(piece.data(), static_cast<std::size_t>(length));
@@ -137,12 +138,15 @@ PackedScene import_packed(const std::string& model) try {
                "reduce it, or give more: vindu pack MODEL --memory-mib N"});
 }
 
-void pack_apart(const std::string& model, const std::string& file, const PackLimits& limits) {
+void pack_apart(const std::string& model, const std::string& file, const PackLimits& limits,
+                const std::stop_token& stop) {
   PackingChild child({"vindu", "pack", model, "--here", "--out", file, "--memory-mib",
                       std::to_string(limits.memory_bytes >> 20)});
   const MonotonicClock clock;
   std::string said;
-  if (!child.listen(clock.now() + limits.time, said))
+  const bool ended = child.listen(clock.now() + limits.time, stop, said);
+  if (stop.stop_requested()) throw Error({"was not read to its end", model, ""});
+  if (!ended)
     throw Error({"reading it takes longer than " + std::to_string(limits.time.count()) + " s",
                  model, kRemedy});
   const int status = child.end();
@@ -152,7 +156,7 @@ void pack_apart(const std::string& model, const std::string& file, const PackLim
   throw Error({"the reader of this format breaks down over it (" + how + ")", model, kRemedy});
 }
 
-PackedScene packed_scene(const std::string& model) {
+PackedScene packed_scene(const std::string& model, const std::stop_token& stop) {
   if (fs::path(model).extension() == kSceneFileExtension) return read_scene_file(model);
   check_model_file(model, ImportLimits{}.file_bytes);
   const auto sha256 = sha256_of_file(model);
@@ -162,7 +166,7 @@ PackedScene packed_scene(const std::string& model) {
     PackedScene packed =
         SceneCache(folder).find_or_pack(model, *sha256, [&](const std::string& file) {
           log_info(fs::path(model).filename().string(), "is packed, once");
-          pack_apart(model, file, limits_for(model));
+          pack_apart(model, file, limits_for(model), stop);
         });
     packed.scene.name = fs::path(model).stem().string();  // a copy has its own name
     return packed;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 
 #include "renderer/scene_file.h"
@@ -21,10 +22,12 @@ PackLimits limits_for(const std::string& model);
 /// Imports in this process, cut into chunks, with the files that it was read from.
 PackedScene import_packed(const std::string& model);
 
-/// The same in a child that writes `file`. Throws Error: what the child says, or how it ended.
-void pack_apart(const std::string& model, const std::string& file, const PackLimits& limits);
+/// The same in a child that writes `file`. Throws Error: what the child says, or how it ended; soon
+/// after a stop, too.
+void pack_apart(const std::string& model, const std::string& file, const PackLimits& limits,
+                const std::stop_token& stop = {});
 
 /// From the cache, or packed into it; a packed scene (.vscene) as it is.
-PackedScene packed_scene(const std::string& model);
+PackedScene packed_scene(const std::string& model, const std::stop_token& stop = {});
 
 }  // namespace vindu::app

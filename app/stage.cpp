@@ -25,9 +25,9 @@ std::string path_for_tiles(const std::string& model, const Site& site) {
 
 void Staging::start(const Wish& wish, const Site& site) {
   wish_ = wish;
-  result_ = std::async(std::launch::async, [wish, &site] {
+  reading_.start([wish, &site](const std::stop_token& stop) {
     const std::string file = model_file(path_for_tiles(wish.model, site));
-    const LoadedScene loaded = load_scene(wish.model, wish.place, site, wish.clip);
+    const LoadedScene loaded = load_scene(wish.model, wish.place, site, wish.clip, stop);
     return Staged{{.navigation = loaded.navigation,
                    .box_in_scene = loaded.packed.bounds_in_scene,
                    .clips = clip_names(loaded.packed.scene),

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <array>
-#include <future>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/background.h"
 #include "core/frame_state.h"
 #include "core/site.h"
 #include "renderer/scene.h"
@@ -48,17 +48,15 @@ class Staging {
 
   /// `site` must outlive the reading.
   void start(const Wish& wish, const Site& site);
-  bool running() const { return result_.valid(); }
-  bool done() const {
-    return running() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  }
+  bool running() const { return reading_.running(); }
+  bool done() const { return reading_.done(); }
   const Wish& wish() const { return wish_; }
   /// Throws what reading threw.
-  Staged take() { return result_.get(); }
+  Staged take() { return reading_.take(); }
 
  private:
   Wish wish_;
-  std::future<Staged> result_;
+  Background<Staged> reading_;
 };
 
 }  // namespace vindu::app

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <future>
 #include <random>
 
+#include "app/background.h"
 #include "app/captures.h"
 #include "app/commands.h"
 #include "app/common.h"
@@ -64,26 +64,23 @@ class Loading {
  public:
   void start(const SceneMessage& scene) {
     revision_ = scene.revision;
-    result_ = std::async(std::launch::async, [scene] {
+    reading_.start([scene](const std::stop_token& stop) {
       const std::string file = model_file(scene.path);
       if (!scene.sha256.empty() && sha256_of_file(file).value_or(scene.sha256) != scene.sha256)
         throw Error({"is not what the master has there", file,
                      "bring its file to all hosts: vindu deploy"});
-      return read_model(file);
+      return read_model(file, stop);
     });
   }
-  bool done() const {
-    return result_.valid() &&
-           result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  }
-  bool running() const { return result_.valid(); }
+  bool done() const { return reading_.done(); }
+  bool running() const { return reading_.running(); }
   std::uint64_t revision() const { return revision_; }
   /// Throws what loading threw.
-  PackedScene take() { return result_.get(); }
+  PackedScene take() { return reading_.take(); }
 
  private:
   std::uint64_t revision_ = 0;
-  std::future<PackedScene> result_;
+  Background<PackedScene> reading_;
 };
 
 /// On CPUs without shadows: each process would draw the whole scene anew for its own map.

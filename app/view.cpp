@@ -1,8 +1,14 @@
 // vindu view: a model on one screen, head-coupled: a window that looks through the screen into the
 // scene. The frustum follows the window when it is moved.
-#include <cstdio>
-#include <memory>
+#include <fmt/format.h>
 
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "app/background.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/emulation.h"
@@ -12,10 +18,13 @@
 #include "app/window_statistics.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "renderer/diagram.h"
+#include "renderer/notice.h"
 #include "renderer/pattern.h"
 #include "renderer/resources.h"
 #include "renderer/scene_renderer.h"
 #include "renderer/surface.h"
+#include "renderer/text.h"
 
 namespace vindu::app {
 namespace {
@@ -94,17 +103,61 @@ struct Shown {
   int clip = 0;
 };
 
-/// `model` may be another one than the options', whose clip it then need not have.
-Shown load_shown(const std::string& model, const ViewOptions& options, const Site& site,
-                 const TileCorners& content) {
-  Site place_before = site;  // fitted to the window, not to the screen
-  place_before.wall = single_screen(content.width_m(), content.height_m(), 1, 1);
-  LoadedScene loaded =
-      load_scene(model, options.place, place_before, model == options.model ? options.clip : "");
-  const bool own_place = options.place == Placement::as_is;
-  if (!own_place) loaded.navigation.wall_from_scene.translation += content.centre_in_wall();
+Shown shown_of(const LoadedScene& loaded) {
   return {GpuScene(loaded.packed, live_look()), loaded.navigation, loaded.clip};
 }
+
+/// `model` may be another one than the options', whose clip it then need not have.
+LoadedScene load_before(const std::string& model, const ViewOptions& options, const Site& site,
+                        const TileCorners& content, const std::stop_token& stop = {}) {
+  Site place_before = site;  // fitted to the window, not to the screen
+  place_before.wall = single_screen(content.width_m(), content.height_m(), 1, 1);
+  LoadedScene loaded = load_scene(model, options.place, place_before,
+                                  model == options.model ? options.clip : "", stop);
+  const bool own_place = options.place == Placement::as_is;
+  if (!own_place) loaded.navigation.wall_from_scene.translation += content.centre_in_wall();
+  return loaded;
+}
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+/// What is to be said of models on the window, in its lower left: one line.
+class Caption {
+ public:
+  void say(std::string words, Time until = Time::max()) {
+    words_ = std::move(words);
+    until_ = until;
+    picture_.reset();
+  }
+  /// Into framebuffer 0.
+  void draw(SizePx window, Time now, const SceneRenderer& renderer) {
+    if (words_.empty() || now >= until_) return;
+    if (!picture_ || drawn_for_ != window) write(window);
+    const int margin_px = window.width / 100;
+    glViewport(margin_px, margin_px, picture_->size().width, picture_->size().height);
+    renderer.present(*picture_, {});
+  }
+
+ private:
+  void write(SizePx window) {
+    const TextStyle style{.height_px = std::max(12.0, window.height / 40.0), .colour = kBright};
+    const int pad_px = static_cast<int>(style.height_px / 2);
+    Image image = Image::filled(text_width_px(words_, style) + 2 * pad_px,
+                                static_cast<int>(style.height_px) + 2 * pad_px, kDarkPaper);
+    draw_text(image, pad_px, pad_px, words_, style);
+    picture_.emplace(SizePx{image.width_px, image.height_px}, Style::lit);
+    picture_->write(image);
+    picture_->make_mipmaps();
+    drawn_for_ = window;
+  }
+
+  std::string words_;
+  Time until_{};
+  std::optional<Picture> picture_;
+  SizePx drawn_for_;
+};
 
 class Viewer {
  public:
@@ -115,14 +168,27 @@ class Viewer {
         renderer_(live_look()),
         patterns_(site_.wall, Style::lit),
         statistics_(window, site_.rate_hz),
-        shadow_(live_look()),
-        shown_(load_shown(options.model, options, site_,
-                          content_corners(site_.wall.tiles.front(), window))) {}
+        shadow_(live_look()) {}
 
   const Site& site() const { return site_; }
-  const Navigation& navigation() const { return shown_.navigation; }
 
   WindowStatistics& statistics() { return statistics_; }
+
+  /// Reads the first model while the window stays alive; false: it was closed before. Throws Error
+  /// for a model that cannot be read.
+  bool load_first() {
+    const Time began = std::chrono::steady_clock::now();
+    start(options_.model);
+    for (Picture page({1, 1}, Style::lit); !reading_.done();) {
+      const Duration waited = std::chrono::steady_clock::now() - began;
+      if (waited > std::chrono::milliseconds(300)) draw_waiting(page, waited);
+      window_.present();
+      if (window_.close_wanted()) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(15));
+    }
+    shown_.emplace(shown_of(reading_.take()));
+    return true;
+  }
 
   int draw(const FrameState& state) {
     const TileMount mount = site_.wall.tiles.front().mount;
@@ -136,9 +202,9 @@ class Viewer {
     const Tile content = content_tile(size);
     auto view = tile_view(content.corners, state.eye_in_wall);
     if (view) view->detail = detail_need(content.corners, size, state.eye_in_wall);
-    shown_.scene.pose(matrix_of(shown_.navigation.wall_from_scene, shown_.navigation.scale),
-                      state.animation_time_s, shown_.clip);
-    const GpuScene* scenes[] = {&shown_.scene};
+    shown_->scene.pose(matrix_of(shown_->navigation.wall_from_scene, shown_->navigation.scale),
+                       state.animation_time_s, shown_->clip);
+    const GpuScene* scenes[] = {&shown_->scene};
     shadow_.update(scenes, shadow_region(site_.wall));
     canvas_->begin();
     const Time began = std::chrono::steady_clock::now();
@@ -153,26 +219,61 @@ class Viewer {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, window_.size().width, window_.size().height);
     renderer_.present(*picture_, mount);
+    caption_.draw(window_.size(), began, renderer_);
     statistics_.draw_over(renderer_);
     glFinish();
     statistics_.drew(count, std::chrono::steady_clock::now() - began);
     return view ? 0 : 1;
   }
 
-  /// A model dropped on the window replaces the shown one; one that cannot be loaded changes
-  /// nothing.
-  void take_dropped_model() {
-    const auto file = window_.take_dropped_file();
-    if (!file) return;
-    try {
-      shown_ =
-          load_shown(*file, options_, site_, content_corners(site_.wall.tiles.front(), window_));
-    } catch (const Error& error) {
-      log_warning("view", std::string(error.what()) + " (the scene before it stays)");
+  /// A model dropped on the window replaces the shown one when it is read; one that cannot be read
+  /// changes nothing. The one that is dropped last counts.
+  void follow_drops() {
+    if (auto file = window_.take_dropped_file()) {
+      dropped_ = std::move(file);
+      reading_.stop();
     }
+    if (reading_.done()) change();
+    if (!dropped_ || reading_.running()) return;
+    caption_.say(file_name(*dropped_) + " is being read");
+    start(*std::exchange(dropped_, std::nullopt));
   }
 
  private:
+  void start(const std::string& model) {
+    name_ = model.empty() ? "the scene" : file_name(model);
+    const TileCorners content = content_corners(site_.wall.tiles.front(), window_);
+    reading_.start([this, model, content](const std::stop_token& stop) {
+      return load_before(model, options_, site_, content, stop);
+    });
+  }
+
+  void change() {
+    try {
+      shown_.emplace(shown_of(reading_.take()));
+      caption_.say("");
+    } catch (const Error& error) {
+      if (dropped_) return;  // stopped for it
+      log_warning("view", std::string(error.what()) + " (the scene before it stays)");
+      caption_.say(name_ + " cannot be shown: see the terminal",
+                   std::chrono::steady_clock::now() + std::chrono::seconds(8));
+    }
+  }
+
+  void draw_waiting(Picture& page, Duration waited) {
+    const SizePx size = window_.size();
+    if (size.width < 1 || size.height < 1) return;  // minimised
+    if (page.size() != size) page = Picture(size, Style::lit);
+    const Notice notice{
+        .title = "Vindu",
+        .lines = {"reads " + name_, fmt::format("{:.0f} s", std::floor(seconds(waited)))}};
+    page.write(draw_notice(notice, size));
+    page.make_mipmaps();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, size.width, size.height);
+    renderer_.present(page, {});
+  }
+
   /// The window's content as a tile of its own.
   Tile content_tile(SizePx size) const {
     Tile tile = site_.wall.tiles.front();
@@ -189,7 +290,11 @@ class Viewer {
   PatternPainter patterns_;
   WindowStatistics statistics_;
   ShadowMap shadow_;
-  Shown shown_;
+  std::optional<Shown> shown_;
+  Caption caption_;
+  std::string name_;  // of what is being read
+  std::optional<std::string> dropped_;
+  Background<LoadedScene> reading_;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<Picture> picture_;
 };
@@ -212,7 +317,8 @@ int view_as_picture(const ViewOptions& options) {
   const Site site = screen_site(
       options, {.name = "picture", .size = kPicture, .width_mm = 527, .height_mm = 296});
   const auto surface = make_headless_surface({.device = options.device});
-  Shown shown = load_shown(options.model, options, site, site.wall.tiles.front().corners);
+  Shown shown =
+      shown_of(load_before(options.model, options, site, site.wall.tiles.front().corners));
   shown.scene.pose(matrix_of(shown.navigation.wall_from_scene, shown.navigation.scale), 0,
                    shown.clip);
   const SceneRenderer renderer(Look{});
@@ -246,6 +352,7 @@ int view(const ViewOptions& options) {
       make_window({.size = {1280, 720}, .title = "Vindu", .fullscreen = options.fullscreen});
   MonotonicClock clock;
   Viewer viewer(options, *window);
+  if (!viewer.load_first()) return 0;
   EmulatedRoomOptions room_options;
   room_options.person = walk_before(viewer.site().wall, clock.now(), options.seed);
   apply(options.emulation, room_options.wiimote);
@@ -254,7 +361,7 @@ int view(const ViewOptions& options) {
   LoopOptions loop{.rate_hz = viewer.site().rate_hz,
                    .display_latency = from_seconds(1e-3 * viewer.site().viewer.display_latency_ms),
                    .length = {},
-                   .navigation = viewer.navigation(),
+                   .navigation = {},
                    .pattern = options.pattern};
   if (options.seconds) loop.length = from_seconds(*options.seconds);
   const LoopResult result =
@@ -262,7 +369,7 @@ int view(const ViewOptions& options) {
                  {[&](const FrameState& state) { return viewer.draw(state); },
                   [&](const FrameRecord&) {
                     window->present();
-                    viewer.take_dropped_model();
+                    viewer.follow_drops();
                     return !window->close_wanted();
                   },
                   [&](const FrameRecord& record) { viewer.statistics().showed(record); }});

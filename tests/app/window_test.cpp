@@ -1,7 +1,15 @@
 // Windows, on an X server without a screen: they open, draw for a while and end by themselves; and
 // what happens where there is no display.
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <thread>
+#include <utility>
+
 #include "renderer/image.h"
 #include "tests/app/process.h"
+#include "tests/app/x_client.h"
+#include "tests/wall/children.h"
 
 namespace vindu {
 namespace {
@@ -16,6 +24,28 @@ using ::testing::SizeIs;
 class Windows : public AppTest {
  protected:
   void SetUp() override { ASSERT_NE(display_.name(), "") << "Xvfb does not start"; }
+  /// A window beside the test; what it says goes to a file.
+  Child open(std::vector<std::string> words) const {
+    words.insert(words.begin(), {VINDU_PROGRAM, "view"});
+    return {words, path("said"), [this] {
+              setenv("DISPLAY", display_.name().c_str(), 1);
+              setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+            }};
+  }
+  std::string said() const { return bytes_of(path("said")); }
+  /// Of the pixels of two pictures: how many are not alike.
+  static double changed(const Image& a, const Image& b) {
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) others += a.pixels[i] != b.pixels[i];
+    return static_cast<double>(others) / static_cast<double>(a.pixels.size());
+  }
+  static bool eventually(const std::function<bool()>& condition) {
+    for (int i = 0; i < 600; ++i) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
   VirtualDisplay display_;
 };
 
@@ -54,6 +84,37 @@ TEST_F(Windows, DoubtASizeThatWasInventedAndSayHowToGiveIt) {
             display_.environment());
   EXPECT_EQ(typed.exit_code, 0);
   EXPECT_THAT(typed.err, Not(HasSubstr("--screen-mm")));
+}
+
+TEST_F(Windows, ShowWhatIsDroppedOnThemAndKeepTheirSceneForWhatIsNoModel) {
+  Child view = open({small_model(), "--eye", "0,0.1,0.6"});
+  XClient x(display_.name());
+  ASSERT_TRUE(eventually([&] { return said().find("fitted") != std::string::npos; }));
+  Image before = x.picture();
+  ASSERT_TRUE(eventually([&] {
+    const Image now = x.picture();
+    return changed(std::exchange(before, now), now) == 0;
+  }));
+  x.drop("/usr/share/assimp/models/PLY/Wuson.ply");
+  EXPECT_TRUE(eventually([&] { return said().find("info Wuson: fitted") != std::string::npos; }));
+  EXPECT_TRUE(eventually([&] { return changed(before, x.picture()) > 0.02; }));
+  x.drop(write("broken.glb", "no model"));
+  EXPECT_TRUE(
+      eventually([&] { return said().find("scene before it stays") != std::string::npos; }));
+  x.close_window();
+  EXPECT_EQ(view.end(), 0) << said();
+}
+
+TEST_F(Windows, CanBeClosedWhileAModelIsRead) {
+  std::ofstream stream(path("large.obj"));
+  for (int i = 0; i < 1'500'000; ++i) stream << "v " << i << " 0 1\nv 0 " << i << " 1\nf -1 -2 1\n";
+  stream.close();
+  Child view = open({path("large.obj")});
+  XClient(display_.name()).close_window();
+  EXPECT_EQ(view.end(), 0);
+  EXPECT_THAT(said(), Not(HasSubstr("frames in")));
+  for (const std::string& file : files_in("cache/vindu/scenes"))
+    EXPECT_THAT(file, ::testing::EndsWith(".lock"));
 }
 
 TEST_F(Windows, ShowTheWholeChain) {

@@ -28,9 +28,9 @@ Child::Child(std::vector<std::string> words, const std::string& output_file,
   const int output = open(output_file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
-  enter();
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
+  enter();
   execv(argv[0], argv.data());
   _exit(127);
 }

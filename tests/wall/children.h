@@ -12,7 +12,8 @@ namespace vindu::testing {
 /// Killed at the end of its scope, if it still runs, and when the test dies.
 class Child {
  public:
-  /// Its output goes to that file. `enter` is called in the child, before the program starts.
+  /// Its output goes to that file. `enter` is called in the child, before the program starts;
+  /// without it there is no display.
   Child(
       std::vector<std::string> words, const std::string& output_file,
       const std::function<void()>& enter = [] {});
