@@ -122,6 +122,36 @@ TEST_F(MaterialsGl, LightsTrianglesOfTheWrongWindingByTheirNormals) {
   EXPECT_EQ(draw_on_stage(wound_back, Style::lit), draw_on_stage(square_scene(both), Style::lit));
 }
 
+/// The square of the stage in folds narrower than a pixel, whose sides look away from the viewer by
+/// turns; all normals look at him.
+Scene folded(float depth_m) {
+  constexpr int kFolds = 400;
+  Material both = plain(.4f, .4f, .4f);
+  both.unlit = false;
+  both.double_sided = true;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  for (int i = 0; i <= kFolds; ++i) {
+    const float x_m = 2.0f * static_cast<float>(i) / kFolds - 1;
+    for (const float y_m : {-1.0f, 1.0f})
+      vertices.push_back({.position_in_node = {x_m, y_m, static_cast<float>(i % 2) * depth_m},
+                          .normal_in_node = {0, 0, 1}});
+    const auto at = static_cast<std::uint32_t>(2 * i);
+    if (i < kFolds) indices.insert(indices.end(), {at, at + 2, at + 3, at, at + 3, at + 1});
+  }
+  Scene scene;
+  scene.nodes.push_back({.name = "folds", .meshes = {add_mesh(scene, vertices, indices, both)}});
+  return scene;
+}
+
+TEST_F(MaterialsGl, LightsTrianglesThinnerThanAPixelByTheirNormals) {
+  const Image image = draw_on_stage(folded(0.02f), Style::lit);
+  const Image flat = draw_on_stage(folded(0), Style::lit);
+  for (int y = 2; y < 62; ++y)
+    for (int x = 2; x < 62; ++x)
+      ASSERT_THAT(image.at(x, y), IsNearColour(flat.at(x, y), 6)) << x << ", " << y;
+}
+
 TEST_F(MaterialsGl, LightsOtherMaterials) {
   Material lit = plain(.2f, .2f, .2f);
   lit.unlit = false;
