@@ -32,7 +32,8 @@ struct LoopOptions {
 
 struct LoopResult {
   std::vector<FrameRecord> frames;
-  std::uint64_t ticks_missed = 0;  ///< ticks that passed while a frame was still being drawn
+  std::uint64_t ticks_missed = 0;   ///< ticks that passed while a frame was still being drawn
+  std::uint64_t ticks_at_rest = 0;  ///< ticks with nothing new to draw
   Duration length{};
 };
 
@@ -49,6 +50,10 @@ struct FrameSteps {
   DrawFrame draw;
   PresentFrame present;
   FrameShown shown{};
+  /// False: the frame would look as the one that is shown, and is not drawn. Empty: always true.
+  std::function<bool(const FrameState&)> due{};
+  /// At each tick whose frame is not due; false ends the loop.
+  std::function<bool()> rest{};
 };
 
 /// A tick that cannot be kept is skipped, never made up for. The frame's photon time is predicted

@@ -119,10 +119,11 @@ std::string table_of(const RunReport& report) {
   const LoopResult& loop = report.loop;
   const double length_s = std::max(seconds(loop.length), 1e-9);
   std::string text = fmt::format(
-      "\n{} frames in {:.1f} s: {:.1f} a second, {} ticks missed; wall drawn at {}x{} ({:.3g} of "
+      "\n{} frames in {:.1f} s: {:.1f} a second, {} ticks missed{}; wall drawn at {}x{} ({:.3g} of "
       "full size)\non {}\n\n",
       loop.frames.size(), length_s, static_cast<double>(loop.frames.size()) / length_s,
-      loop.ticks_missed, report.wall_px.width, report.wall_px.height, report.scale, report.gl);
+      loop.ticks_missed, loop.ticks_at_rest ? fmt::format(", {} at rest", loop.ticks_at_rest) : "",
+      report.wall_px.width, report.wall_px.height, report.scale, report.gl);
   text += fmt::format("  {:<34}{:>9}{:>9}{:>9}\n", "", "mean", "p95", "max");
   for (const Row& row : latency_rows(report)) text += row_text(row, "ms");
   for (const Row& row : error_rows(report)) text += row_text(row, "mm");

@@ -18,6 +18,7 @@
 #include "app/window_statistics.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "renderer/clips.h"
 #include "renderer/diagram.h"
 #include "renderer/notice.h"
 #include "renderer/pattern.h"
@@ -101,10 +102,14 @@ struct Shown {
   GpuScene scene;
   Navigation navigation;
   int clip = 0;
+  bool plays = false;  // something else at every moment
 };
 
 Shown shown_of(const LoadedScene& loaded) {
-  return {GpuScene(loaded.packed, live_look()), loaded.navigation, loaded.clip};
+  return {.scene = GpuScene(loaded.packed, live_look()),
+          .navigation = loaded.navigation,
+          .clip = loaded.clip,
+          .plays = static_cast<std::size_t>(loaded.clip) < clip_names(loaded.packed.scene).size()};
 }
 
 /// `model` may be another one than the options', whose clip it then need not have.
@@ -131,9 +136,14 @@ class Caption {
     until_ = until;
     picture_.reset();
   }
+  /// Empty when there is nothing to say any more.
+  const std::string& words(Time now) {
+    if (now >= until_) words_.clear();
+    return words_;
+  }
   /// Into framebuffer 0.
   void draw(SizePx window, Time now, const SceneRenderer& renderer) {
-    if (words_.empty() || now >= until_) return;
+    if (words(now).empty()) return;
     if (!picture_ || drawn_for_ != window) write(window);
     const int margin_px = window.width / 100;
     glViewport(margin_px, margin_px, picture_->size().width, picture_->size().height);
@@ -190,6 +200,21 @@ class Viewer {
     return true;
   }
 
+  /// Whether a frame would look other than the one that is shown.
+  bool due(FrameState state) {
+    if (!shown_->plays) state.animation_time_s = 0;
+    const TileCorners content = content_corners(site_.wall.tiles.front(), window_);
+    Showing next{.content_hash = content_hash_of(state),
+                 .models = models_,
+                 .size = window_.size(),
+                 .lower_left_in_wall = content.lower_left_in_wall,
+                 .caption = caption_.words(std::chrono::steady_clock::now()),
+                 .statistics = statistics_.on()};
+    const bool changed = window_.take_damaged() || next.statistics || next != showing_;
+    showing_ = std::move(next);
+    return changed;
+  }
+
   int draw(const FrameState& state) {
     const TileMount mount = site_.wall.tiles.front().mount;
     SizePx size = window_.size();
@@ -240,6 +265,18 @@ class Viewer {
   }
 
  private:
+  /// What a picture in the window depends on.
+  struct Showing {
+    std::uint64_t content_hash = 0;
+    int models = -1;
+    SizePx size;
+    Vec3 lower_left_in_wall = Vec3::Zero();
+    std::string caption;
+    bool statistics = false;
+
+    bool operator==(const Showing&) const = default;
+  };
+
   void start(const std::string& model) {
     name_ = model.empty() ? "the scene" : file_name(model);
     const TileCorners content = content_corners(site_.wall.tiles.front(), window_);
@@ -251,6 +288,7 @@ class Viewer {
   void change() {
     try {
       shown_.emplace(shown_of(reading_.take()));
+      ++models_;
       caption_.say("");
     } catch (const Error& error) {
       if (dropped_) return;  // stopped for it
@@ -291,6 +329,8 @@ class Viewer {
   WindowStatistics statistics_;
   ShadowMap shadow_;
   std::optional<Shown> shown_;
+  int models_ = 0;  // that have been shown
+  Showing showing_;
   Caption caption_;
   std::string name_;  // of what is being read
   std::optional<std::string> dropped_;
@@ -372,7 +412,13 @@ int view(const ViewOptions& options) {
                     viewer.follow_drops();
                     return !window->close_wanted();
                   },
-                  [&](const FrameRecord& record) { viewer.statistics().showed(record); }});
+                  [&](const FrameRecord& record) { viewer.statistics().showed(record); },
+                  [&](const FrameState& state) { return viewer.due(state); },
+                  [&] {
+                    window->handle_events();
+                    viewer.follow_drops();
+                    return !window->close_wanted();
+                  }});
   const auto* tracked = dynamic_cast<const TrackedEye*>(eyes.get());
   const RunReport report{
       .loop = result,

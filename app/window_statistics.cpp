@@ -14,9 +14,13 @@ void WindowStatistics::showed(const FrameRecord& record) {
   statistics_.showed(record.tick + after_tick, record.parts);
 }
 
-void WindowStatistics::draw_over(const SceneRenderer& renderer) {
+bool WindowStatistics::on() {
   if (window_.take_f1() % 2 == 1) on_ = !on_;
-  if (!on_) return;
+  return on_;
+}
+
+void WindowStatistics::draw_over(const SceneRenderer& renderer) {
+  if (!on()) return;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   const SizePx size = window_.size();
   const int margin = size.width / 100;

@@ -22,6 +22,8 @@ class WindowStatistics {
   /// The frame was shown.
   void showed(const FrameRecord& record);
 
+  /// Whether it is switched on, by all keys until now.
+  bool on();
   /// Into the window, if it is switched on; after everything else.
   void draw_over(const SceneRenderer& renderer);
 

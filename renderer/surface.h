@@ -84,6 +84,10 @@ class Window : public Surface {
   virtual double take_wheel() = 0;
   /// How often F1 was pressed since the last call.
   virtual int take_f1() = 0;
+  /// What present() does without a new picture.
+  virtual void handle_events() = 0;
+  /// Whether its picture was lost since the last call, by what lay over it.
+  virtual bool take_damaged() = 0;
   /// Paths that were dropped onto the window since the last call.
   virtual std::optional<std::string> take_dropped_file() = 0;
 };

@@ -109,6 +109,7 @@ class GlfwWindow final : public Window {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
       if (key == GLFW_KEY_F1 && action == GLFW_PRESS) ++self(window).f1_;
     });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { self(window).damaged_ = true; });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
       if (count > 0) self(window).dropped_ = paths[0];
     });
@@ -128,6 +129,9 @@ class GlfwWindow final : public Window {
   void present() override {
     glfwSwapBuffers(window_);
     swapped_ = gl::Fence::here();
+    handle_events();
+  }
+  void handle_events() override {
     glfwPollEvents();
     if (glfwGetKey(window_, GLFW_KEY_ESCAPE) == GLFW_PRESS)
       glfwSetWindowShouldClose(window_, GLFW_TRUE);
@@ -159,6 +163,7 @@ class GlfwWindow final : public Window {
             std::clamp(1 - 2 * y / std::max(height, 1), -1.0, 1.0)};
   }
   double take_wheel() override { return std::exchange(wheel_, 0); }
+  bool take_damaged() override { return std::exchange(damaged_, false); }
   int take_f1() override { return std::exchange(f1_, 0); }
   std::optional<std::string> take_dropped_file() override {
     return std::exchange(dropped_, std::nullopt);
@@ -192,6 +197,7 @@ class GlfwWindow final : public Window {
   gl::Fence swapped_;
   double wheel_ = 0;
   int f1_ = 0;
+  bool damaged_ = false;
   std::optional<std::string> dropped_;
 };
 

@@ -105,6 +105,17 @@ TEST_F(Windows, ShowWhatIsDroppedOnThemAndKeepTheirSceneForWhatIsNoModel) {
   EXPECT_EQ(view.end(), 0) << said();
 }
 
+TEST_F(Windows, RestWhileNothingMoves) {
+  const ProcessResult result = vindu(
+      {"view", small_model(), "--eye", "0,0.1,0.6", "--seconds", "2"}, display_.environment());
+  EXPECT_THAT(result.out, HasSubstr(" at rest"));
+  EXPECT_LT(std::stoi(result.out), 5) << result.out;
+  const ProcessResult plays = vindu(
+      {"view", "/usr/share/assimp/models/X/Testwuson.X", "--eye", "0,0.1,0.6", "--seconds", "2"},
+      display_.environment());
+  EXPECT_THAT(plays.out, Not(HasSubstr(" at rest")));
+}
+
 TEST_F(Windows, CanBeClosedWhileAModelIsRead) {
   std::ofstream stream(path("large.obj"));
   for (int i = 0; i < 1'500'000; ++i) stream << "v " << i << " 0 1\nv 0 " << i << " 1\nf -1 -2 1\n";
