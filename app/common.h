@@ -90,12 +90,12 @@ struct LoadedScene {
 /// A scene's path as tiles are told it, on this host: "asset:..." is part of every installation.
 std::string model_file(const std::string& path);
 
-/// A model, packed; warnings are logged. Throws Error soon after a stop.
+/// A model, packed; warnings are logged. Stops as packed_scene() does.
 PackedScene read_model(const std::string& file, const std::stop_token& stop = {});
 
 /// Reads a model and places it before the wall; warnings and the placement are logged. An empty
 /// name is the wall file's scene or, where it names none, the show. `clip`: see find_clip(). Throws
-/// Error for one that the model does not have, and soon after a stop.
+/// Error for one that the model does not have. Stops as packed_scene() does.
 LoadedScene load_scene(const std::string& model, std::optional<Placement> placement,
                        const Site& site, const std::string& clip = "",
                        const std::stop_token& stop = {});

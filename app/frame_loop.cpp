@@ -23,8 +23,7 @@ LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
   LoopResult result;
   const Time start = clock.now();
   PhotonDelay delay(from_seconds(1 / options.rate_hz));
-  const auto show = [&](FrameRecord record, const EyeNow& eye) {
-    const FrameOrigin origin = origin_of(eye, record.tick, clock.now());
+  const auto show = [&](FrameRecord record, const FrameOrigin& origin) {
     const Time drawing = clock.now();
     record.black_tiles = steps.draw(record.state);
     const Time drawn = clock.now();
@@ -54,9 +53,10 @@ LoopResult run_frames(const LoopOptions& options, Clock& clock, EyeSource& eyes,
                              .pose = eye.pose,
                              .shows_the_tracked_eye = eye.tracked,
                              .tick = now};
+    const FrameOrigin origin = origin_of(eye, now, clock.now());
     const bool due = !steps.due || steps.due(record.state);
     if (!due) ++result.ticks_at_rest;
-    if (!(due ? show(record, eye) : steps.rest())) break;
+    if (!(due ? show(record, origin) : steps.rest())) break;
     const auto next =
         static_cast<std::int64_t>(seconds(clock.now() - start) * options.rate_hz + 1e-6) + 1;
     result.ticks_missed += static_cast<std::uint64_t>(std::max<std::int64_t>(next - tick - 1, 0));

@@ -75,6 +75,7 @@ class PackingChild {
   PackingChild(const PackingChild&) = delete;
   PackingChild& operator=(const PackingChild&) = delete;
 
+  pid_t id() const { return id_; }
   /// What it said until it closed its output; false when that takes longer, or was stopped.
   bool listen(Time until, const std::stop_token& stop, std::string& said) const {
     constexpr long long kLook_ms = 50;  // for a stop
@@ -100,6 +101,15 @@ class PackingChild {
  private:
   pid_t id_ = -1;
   int output_ = -1;
+};
+
+/// Removes a file at the end of its scope, if it is there.
+struct Removed {
+  std::string file;
+  ~Removed() {
+    std::error_code unable;
+    fs::remove(file, unable);
+  }
 };
 
 /// "vindu: MODEL: what; remedy" without its beginning.
@@ -140,8 +150,10 @@ PackedScene import_packed(const std::string& model) try {
 
 void pack_apart(const std::string& model, const std::string& file, const PackLimits& limits,
                 const std::stop_token& stop) {
+  Removed unfinished;  // what a killed child leaves
   PackingChild child({"vindu", "pack", model, "--here", "--out", file, "--memory-mib",
                       std::to_string(limits.memory_bytes >> 20)});
+  unfinished.file = unfinished_scene_file(file, child.id());
   const MonotonicClock clock;
   std::string said;
   const bool ended = child.listen(clock.now() + limits.time, stop, said);
@@ -163,11 +175,13 @@ PackedScene packed_scene(const std::string& model, const std::stop_token& stop) 
   const fs::path folder = SceneCache::usual_folder();
   if (!sha256 || folder.empty()) return import_packed(model);
   try {
-    PackedScene packed =
-        SceneCache(folder).find_or_pack(model, *sha256, [&](const std::string& file) {
+    PackedScene packed = SceneCache(folder).find_or_pack(
+        model, *sha256,
+        [&](const std::string& file) {
           log_info(fs::path(model).filename().string(), "is packed, once");
           pack_apart(model, file, limits_for(model), stop);
-        });
+        },
+        stop);
     packed.scene.name = fs::path(model).stem().string();  // a copy has its own name
     return packed;
   } catch (const fs::filesystem_error& error) {

@@ -27,7 +27,8 @@ PackedScene import_packed(const std::string& model);
 void pack_apart(const std::string& model, const std::string& file, const PackLimits& limits,
                 const std::stop_token& stop = {});
 
-/// From the cache, or packed into it; a packed scene (.vscene) as it is.
+/// From the cache, or packed into it; a packed scene (.vscene) as it is. Throws Error soon after a
+/// stop while somebody packs it.
 PackedScene packed_scene(const std::string& model, const std::stop_token& stop = {});
 
 }  // namespace vindu::app

@@ -132,9 +132,9 @@ std::string table_of(const RunReport& report) {
     text += fmt::format("  {:<34}{}{}\n", "gaps of camera " + camera.name, text_of(camera.gaps),
                         camera.trouble.empty() ? "" : "; " + camera.trouble);
   if (report.tracker)
-    text += fmt::format("  {:<34}{} frames\n", "eye held or led back in", led_frames(report));
+    text += fmt::format("  {:<34}{} drawn frames\n", "eye held or led back in", led_frames(report));
   if (const int black = black_frames(report))
-    text += fmt::format("  {:<34}{} frames: the eye was behind a tile's plane\n", "black tiles in",
+    text += fmt::format("  {:<34}{} drawn frames: the eye was behind a tile's plane\n", "black tiles in",
                         black);
   return text;
 }

@@ -128,45 +128,34 @@ std::string file_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-/// What is to be said of models on the window, in its lower left: one line.
+/// What is to be said of models in the window, in the picture's lower left: one line.
 class Caption {
  public:
   void say(std::string words, Time until = Time::max()) {
     words_ = std::move(words);
     until_ = until;
-    picture_.reset();
   }
   /// Empty when there is nothing to say any more.
   const std::string& words(Time now) {
     if (now >= until_) words_.clear();
     return words_;
   }
-  /// Into framebuffer 0.
-  void draw(SizePx window, Time now, const SceneRenderer& renderer) {
-    if (words(now).empty()) return;
-    if (!picture_ || drawn_for_ != window) write(window);
-    const int margin_px = window.width / 100;
-    glViewport(margin_px, margin_px, picture_->size().width, picture_->size().height);
-    renderer.present(*picture_, {});
+  void draw(Picture& picture, Time now) {
+    const SizePx size = picture.size();
+    const TextStyle style{.height_px = std::max(12.0, size.height / 40.0), .colour = kBright};
+    const int pad_px = static_cast<int>(style.height_px / 2), margin_px = size.width / 100;
+    const SizePx line{
+        std::min(text_width_px(words(now), style) + 2 * pad_px, size.width - 2 * margin_px),
+        static_cast<int>(style.height_px) + 2 * pad_px};
+    if (words_.empty() || line.width < 1 || line.height + margin_px > size.height) return;
+    Image image = Image::filled(line.width, line.height, kDarkPaper);
+    draw_text(image, pad_px, pad_px, words_, style);
+    picture.write(image, margin_px, margin_px);
   }
 
  private:
-  void write(SizePx window) {
-    const TextStyle style{.height_px = std::max(12.0, window.height / 40.0), .colour = kBright};
-    const int pad_px = static_cast<int>(style.height_px / 2);
-    Image image = Image::filled(text_width_px(words_, style) + 2 * pad_px,
-                                static_cast<int>(style.height_px) + 2 * pad_px, kDarkPaper);
-    draw_text(image, pad_px, pad_px, words_, style);
-    picture_.emplace(SizePx{image.width_px, image.height_px}, Style::lit);
-    picture_->write(image);
-    picture_->make_mipmaps();
-    drawn_for_ = window;
-  }
-
   std::string words_;
   Time until_{};
-  std::optional<Picture> picture_;
-  SizePx drawn_for_;
 };
 
 class Viewer {
@@ -189,12 +178,16 @@ class Viewer {
   bool load_first() {
     const Time began = std::chrono::steady_clock::now();
     start(options_.model);
-    for (Picture page({1, 1}, Style::lit); !reading_.done();) {
+    for (WaitingPage shown; !reading_.done();) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
       const Duration waited = std::chrono::steady_clock::now() - began;
-      if (waited > std::chrono::milliseconds(300)) draw_waiting(page, waited);
-      window_.present();
+      const WaitingPage page{picture_size(), std::chrono::floor<std::chrono::seconds>(waited)};
+      const bool due = window_.take_damaged() || page != shown;
+      if (due && waited > std::chrono::milliseconds(300))
+        draw(shown = page);
+      else
+        window_.handle_events();
       if (window_.close_wanted()) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(15));
     }
     shown_.emplace(shown_of(reading_.take()));
     return true;
@@ -216,10 +209,8 @@ class Viewer {
   }
 
   int draw(const FrameState& state) {
-    const TileMount mount = site_.wall.tiles.front().mount;
-    SizePx size = window_.size();
+    const SizePx size = picture_size();
     if (size.width < 1 || size.height < 1) return 0;  // minimised
-    if (mount.rotate_deg % 180 == 90) std::swap(size.width, size.height);
     if (!canvas_ || canvas_->size() != size) {
       canvas_ = std::make_unique<Canvas>(size, live_look());
       picture_ = std::make_unique<Picture>(size, Style::lit);
@@ -240,11 +231,8 @@ class Viewer {
     if (!shows_model(state)) patterns_.draw(state, content, {0, 0, size}, *picture_);
     PatternPainter::draw_number(state, {0, 0, size}, *picture_);
     statistics_.timer().end();
-    picture_->make_mipmaps();
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, window_.size().width, window_.size().height);
-    renderer_.present(*picture_, mount);
-    caption_.draw(window_.size(), began, renderer_);
+    caption_.draw(*picture_, began);
+    put_into_window(*picture_);
     statistics_.draw_over(renderer_);
     glFinish();
     statistics_.drew(count, std::chrono::steady_clock::now() - began);
@@ -265,6 +253,14 @@ class Viewer {
   }
 
  private:
+  /// While the first model is read.
+  struct WaitingPage {
+    SizePx size;
+    std::chrono::seconds waited{-1};
+
+    bool operator==(const WaitingPage&) const = default;
+  };
+
   /// What a picture in the window depends on.
   struct Showing {
     std::uint64_t content_hash = 0;
@@ -298,18 +294,28 @@ class Viewer {
     }
   }
 
-  void draw_waiting(Picture& page, Duration waited) {
+  void draw(const WaitingPage& page) {
+    if (page.size.width < 1 || page.size.height < 1) return window_.handle_events();  // minimised
+    Picture picture(page.size, Style::lit);
+    picture.write(draw_notice(
+        {.title = "Vindu", .lines = {"reads " + name_, fmt::format("{} s", page.waited.count())}},
+        page.size));
+    put_into_window(picture);
+    window_.present();
+  }
+
+  /// Of what the viewer sees: a screen may be turned.
+  SizePx picture_size() const {
     const SizePx size = window_.size();
-    if (size.width < 1 || size.height < 1) return;  // minimised
-    if (page.size() != size) page = Picture(size, Style::lit);
-    const Notice notice{
-        .title = "Vindu",
-        .lines = {"reads " + name_, fmt::format("{:.0f} s", std::floor(seconds(waited)))}};
-    page.write(draw_notice(notice, size));
-    page.make_mipmaps();
+    const bool turned = site_.wall.tiles.front().mount.rotate_deg % 180 == 90;
+    return turned ? SizePx{size.height, size.width} : size;
+  }
+
+  void put_into_window(Picture& picture) {
+    picture.make_mipmaps();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, size.width, size.height);
-    renderer_.present(page, {});
+    glViewport(0, 0, window_.size().width, window_.size().height);
+    renderer_.present(picture, site_.wall.tiles.front().mount);
   }
 
   /// The window's content as a tile of its own.

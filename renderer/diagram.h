@@ -26,6 +26,9 @@ constexpr Rgba8 kYellow{240, 228, 66, 255};
 constexpr Rgba8 kDarkPaper{16, 18, 22, 255};
 constexpr Rgba8 kBright{240, 240, 240, 255};
 constexpr Rgba8 kSoft{150, 158, 170, 255};
+// Of a tile's own pages.
+constexpr Rgba8 kNight{24, 28, 34, 255};
+constexpr Rgba8 kNightWords{200, 205, 212, 255};
 
 /// The colour over the pixel; its alpha and `cover`, 0 to 1, are how much of it.
 void blend(Rgba8& pixel, const Rgba8& colour, double cover);

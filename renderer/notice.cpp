@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
+#include "renderer/diagram.h"
 #include "renderer/text.h"
 
 namespace vindu {
 namespace {
-
-constexpr Rgba8 kNoticePaper{24, 28, 34, 255};
-constexpr Rgba8 kNoticeWords{200, 205, 212, 255};
 
 /// Cut between words; a word that is wider than the page stands alone.
 std::vector<std::string> wrapped(const std::string& text, const TextStyle& style, int width_px) {
@@ -29,10 +27,10 @@ std::vector<std::string> wrapped(const std::string& text, const TextStyle& style
 }  // namespace
 
 Image draw_notice(const Notice& notice, SizePx size) {
-  Image page = Image::filled(size.width, size.height, kNoticePaper);
+  Image page = Image::filled(size.width, size.height, kNight);
   const TextStyle title{.height_px = std::clamp(size.width / 12.0, 8.0, 90.0), .bold = true};
   const TextStyle words{.height_px = std::clamp(size.width / 30.0, 6.0, 36.0),
-                        .colour = kNoticeWords};
+                        .colour = kNightWords};
   std::vector<std::string> lines;
   for (const std::string& line : notice.lines)
     for (std::string& part : wrapped(line, words, size.width * 9 / 10))

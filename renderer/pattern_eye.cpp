@@ -14,9 +14,7 @@
 namespace vindu {
 namespace {
 
-constexpr Rgba8 kNight{24, 28, 34, 255};
 constexpr Rgba8 kRaster{48, 54, 64, 255};
-constexpr Rgba8 kOutline{200, 205, 212, 255};
 constexpr Rgba8 kGlass{86, 180, 233, 70};
 
 /// One of both drawings: which axes of wall lie to the right and down the page.
@@ -138,13 +136,13 @@ Image draw_eye(const FrameState& state, const Wall& wall, const Tile& tile, Size
   const double line_px = std::max(1.0, size.height / 384.0);
   const double step_m =
       std::pow(10.0, std::floor(std::log10(0.5 * (stage.largest - stage.least).maxCoeff())));
-  const TextStyle words{.height_px = size.height / 18.0, .colour = kOutline};
-  const TextStyle small{.height_px = size.height / 30.0, .colour = kOutline};
+  const TextStyle words{.height_px = size.height / 18.0, .colour = kNightWords};
+  const TextStyle small{.height_px = size.height / 30.0, .colour = kNightWords};
   const char* captions[] = {"from above", "from the left"};
   for (int i = 0; const Elevation& view : elevations(stage, size)) {
     page.clip(view.least_px, view.largest_px);
     draw_raster(page, view, stage, step_m);
-    for (const Tile& other : wall.tiles) draw_tile(page, view, other.corners, line_px, kOutline);
+    for (const Tile& other : wall.tiles) draw_tile(page, view, other.corners, line_px, kNightWords);
     if (frustum_extents(tile.corners, eye, 1))
       draw_frustum(page, view, tile.corners, eye, 0.7 * line_px);
     draw_tile(page, view, tile.corners, 3 * line_px, kVermilion);

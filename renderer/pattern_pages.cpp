@@ -13,8 +13,7 @@ namespace vindu {
 namespace {
 
 constexpr Rgba8 kName{255, 255, 255, 255};
-constexpr Rgba8 kLabel{200, 205, 212, 255};
-constexpr std::array<Rgba8, 2> kGrounds{{{24, 28, 34, 255}, {44, 50, 60, 255}}};
+constexpr std::array<Rgba8, 2> kGrounds{{kNight, {44, 50, 60, 255}}};
 
 /// As high as asked, or as fits the width.
 TextStyle fitted(const std::string& words, TextStyle style, double width_px) {
@@ -102,7 +101,7 @@ std::string text_of(const TileMount& mount) {
 Image draw_names(const Tile& tile, SizePx size) {
   Diagram page(size, kGrounds[static_cast<std::size_t>(tile.column + tile.row) % 2]);
   const double height = size.height, middle = 0.5 * size.width, room = 0.92 * size.width;
-  draw_frame(page, size, std::max(1.0, std::round(height / 384)), kLabel);
+  draw_frame(page, size, std::max(1.0, std::round(height / 384)), kNightWords);
   const TileSurface surface = surface_of(tile.corners, size);
   const Vec2 up = surface.metres_from_px.leftCols<2>().inverse() * Vec2(0, 1);
   draw_up(page, {middle, 0.15 * height}, up.normalized(), 0.2 * height);
@@ -114,7 +113,7 @@ Image draw_names(const Tile& tile, SizePx size) {
   double top = 0.53 * height;
   for (const std::string& line : lines_of(tile)) {
     page.text({middle, top}, line,
-              fitted(line, {.height_px = 0.07 * height, .colour = kLabel}, room),
+              fitted(line, {.height_px = 0.07 * height, .colour = kNightWords}, room),
               Diagram::Align::middle);
     top += 0.085 * height;
   }

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -21,12 +23,19 @@ namespace fs = std::filesystem;
 /// Held by one process at a time.
 class FileLock {
  public:
-  explicit FileLock(const fs::path& file)
+  /// Throws Error after a stop.
+  FileLock(const fs::path& file, const std::stop_token& stop)
       : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
     if (descriptor_ < 0)
       throw fs::filesystem_error("cannot be written", file,
                                  std::error_code(errno, std::generic_category()));
-    while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+    while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && (errno == EINTR || errno == EWOULDBLOCK)) {
+      if (stop.stop_requested()) {
+        close(descriptor_);
+        throw Error({"is being packed by another process, and was not waited for", file, ""});
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
   }
   ~FileLock() { close(descriptor_); }
   FileLock(const FileLock&) = delete;
@@ -89,12 +98,12 @@ std::optional<PackedScene> SceneCache::find(const std::string& model_sha256,
   }
 }
 
-PackedScene SceneCache::find_or_pack(
-    const std::string& model, const std::string& model_sha256,
-    const std::function<void(const std::string& file)>& pack) const {
+PackedScene SceneCache::find_or_pack(const std::string& model, const std::string& model_sha256,
+                                     const std::function<void(const std::string& file)>& pack,
+                                     const std::stop_token& stop) const {
   if (auto found = find(model_sha256, model)) return std::move(*found);
   fs::create_directories(folder_);
-  const FileLock lock(folder_ / (model_sha256 + ".lock"));
+  const FileLock lock(folder_ / (model_sha256 + ".lock"), stop);
   if (auto found = find(model_sha256, model)) return std::move(*found);  // somebody else did it
   const fs::path entry = entry_of(model_sha256);
   pack(entry);

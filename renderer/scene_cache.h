@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "renderer/scene_file.h"
@@ -28,10 +29,11 @@ class SceneCache {
   std::optional<PackedScene> find(const std::string& model_sha256, const std::string& model) const;
 
   /// The scene of the model; `pack` writes it to the file that it is given, and throws Error when
-  /// it cannot. One process packs, others wait for it. Throws std::filesystem::filesystem_error
-  /// when the folder cannot be written.
+  /// it cannot. One process packs, others wait for it, until a stop: then Error. Throws
+  /// std::filesystem::filesystem_error when the folder cannot be written.
   PackedScene find_or_pack(const std::string& model, const std::string& model_sha256,
-                           const std::function<void(const std::string& file)>& pack) const;
+                           const std::function<void(const std::string& file)>& pack,
+                           const std::stop_token& stop = {}) const;
 
  private:
   void forget_oldest() const;

@@ -100,7 +100,7 @@ void write_scene_file(const PackedScene& packed, const std::string& file) {
   const std::vector<std::uint8_t> content = writer.take();
   const Header header{kMagic, kFormat, 0, content.size(), checksum_of(content)};
   // Beside it first, and then in one step into its place.
-  const std::string beside = file + "." + std::to_string(getpid()) + ".part";
+  const std::string beside = unfinished_scene_file(file, getpid());
   {
     std::ofstream stream(beside, std::ios::binary);
     stream.write(reinterpret_cast<const char*>(&header), sizeof(Header));

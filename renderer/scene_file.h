@@ -13,6 +13,11 @@ namespace vindu {
 /// Ends the names of such files.
 constexpr const char* kSceneFileExtension = ".vscene";
 
+/// Where a process writes such a file until it is whole.
+inline std::string unfinished_scene_file(const std::string& file, long process) {
+  return file + "." + std::to_string(process) + ".part";
+}
+
 /// Whole or not at all. Throws Error when it cannot be written.
 void write_scene_file(const PackedScene& packed, const std::string& file);
 

@@ -13,8 +13,8 @@
 
 namespace vindu {
 
-/// Left, middle and right LED, in one frame.
 constexpr std::size_t kLmrLeds = 3;
+/// Left, middle and right LED, in one frame.
 using LmrPoints = std::array<Vec3, kLmrLeds>;
 
 /// Along the ray, from its origin.

@@ -20,7 +20,6 @@ namespace vindu {
 namespace {
 
 constexpr std::size_t kLongestLine = 4096;
-constexpr int kNotStarted = 127;  // as shells say it
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error({what + ": " + std::strerror(errno), "launch",

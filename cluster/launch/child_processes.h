@@ -35,9 +35,11 @@ struct ChildLine {
   std::string text;     ///< without its end; of a longer one than 4096 bytes as many pieces
 };
 
+constexpr int kNotStarted = 127;  ///< exit code, as shells say it
+
 struct ChildEnd {
   std::string name;
-  int exit_code = 0;  ///< 127: could not be started
+  int exit_code = 0;  ///< or kNotStarted
   int signal = 0;     ///< that ended it; 0: ended by itself
 };
 

@@ -13,7 +13,6 @@
 namespace vindu {
 namespace {
 
-constexpr int kNotThere = 127;
 // No question is ever asked, and a dead host is given up soon.
 constexpr const char* kSshOptions = "-oBatchMode=yes -oConnectTimeout=10";
 
@@ -98,7 +97,7 @@ std::vector<HostReport> copied(const std::map<std::string, std::vector<std::stri
   std::vector<HostReport> reports;
   for (const auto& [host, command] : words) {
     const ProgramResult& rsync = results[host];
-    if (rsync.exit_code == kNotThere) no_program("rsync", "rsync");
+    if (rsync.exit_code == kNotStarted) no_program("rsync", "rsync");
     HostReport& report = reports.emplace_back(HostReport{.host = host});
     if (rsync.exit_code == 0) continue;
     const std::string reason = rsync.err.empty() ? "it says nothing" : rsync.err.front();
@@ -128,7 +127,7 @@ std::vector<std::string> clush_words(const std::vector<std::string>& hosts,
 std::vector<HostReport> on_hosts(const std::vector<std::string>& hosts, const std::string& script) {
   if (hosts.empty()) return {};
   const ProgramResult clush = run_program(clush_words(hosts, script));
-  if (clush.exit_code == kNotThere) no_program("clush", "clustershell");
+  if (clush.exit_code == kNotStarted) no_program("clush", "clustershell");
   return reports_from(hosts, clush);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kCalledWrong = 2, kNoProgram = 127;
+constexpr int kCalledWrong = 2;
 constexpr auto kTurn = milliseconds(200);
 constexpr auto kStopPatience = std::chrono::seconds(3);
 
@@ -79,7 +79,7 @@ Supervisor::Outcome Supervisor::consider(const ChildEnd& end) {
     output_.trouble(end.name, text_of(end) + "; the wall is stopped");
     return Outcome::bad;
   }
-  if (end.exit_code == kCalledWrong || end.exit_code == kNoProgram)
+  if (end.exit_code == kCalledWrong || end.exit_code == kNotStarted)
     return give_up(process, text_of(end));
   const Time now = now_();
   const auto delay = process.restarts.after_death(now - process.started);

@@ -20,7 +20,7 @@ using Points = std::vector<Vec3>;
 using Order = std::vector<std::size_t>;
 
 constexpr double kGap_m = 0.03;      // by which rays of one LED may pass each other
-constexpr double kNoMisfit_m = 1;    // of no moments: worse than any
+constexpr double kWorstMisfit_m = 1;    // of no moments: worse than any
 constexpr double kMisfit_m = 0.02;   // rms of a moment's points from the helmet's
 constexpr std::size_t kTrials = 60;  // moments that choose the shape
 
@@ -145,7 +145,7 @@ Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<O
       Moment moment = moments[i];
       misfits_m.push_back(match(crossings[i], orders, *shape, moment));
     }
-    if (const double misfit_m = median(misfits_m, kNoMisfit_m); misfit_m < least_m)
+    if (const double misfit_m = median(misfits_m, kWorstMisfit_m); misfit_m < least_m)
       least_m = misfit_m, best = *shape;
   }
   return best;
@@ -292,7 +292,7 @@ HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig
   for (std::size_t i = 0; i < moments.size(); ++i)
     misfits_m.push_back(match(crossings[i], orders, shape, moments[i]));
   result.led_sigma_mm =
-      1e3 * median(misfits_m, kNoMisfit_m) / std::sqrt(static_cast<double>(good.size()));
+      1e3 * median(misfits_m, kWorstMisfit_m) / std::sqrt(static_cast<double>(good.size()));
   return result;
 }
 
