@@ -134,8 +134,8 @@ std::string table_of(const RunReport& report) {
   if (report.tracker)
     text += fmt::format("  {:<34}{} drawn frames\n", "eye held or led back in", led_frames(report));
   if (const int black = black_frames(report))
-    text += fmt::format("  {:<34}{} drawn frames: the eye was behind a tile's plane\n", "black tiles in",
-                        black);
+    text += fmt::format("  {:<34}{} drawn frames: the eye was behind a tile's plane\n",
+                        "black tiles in", black);
   return text;
 }
 

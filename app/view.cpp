@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/background.h"
+#include "app/caption.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/emulation.h"
@@ -19,13 +20,11 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/clips.h"
-#include "renderer/diagram.h"
 #include "renderer/notice.h"
 #include "renderer/pattern.h"
 #include "renderer/resources.h"
 #include "renderer/scene_renderer.h"
 #include "renderer/surface.h"
-#include "renderer/text.h"
 
 namespace vindu::app {
 namespace {
@@ -127,36 +126,6 @@ LoadedScene load_before(const std::string& model, const ViewOptions& options, co
 std::string file_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
-
-/// What is to be said of models in the window, in the picture's lower left: one line.
-class Caption {
- public:
-  void say(std::string words, Time until = Time::max()) {
-    words_ = std::move(words);
-    until_ = until;
-  }
-  /// Empty when there is nothing to say any more.
-  const std::string& words(Time now) {
-    if (now >= until_) words_.clear();
-    return words_;
-  }
-  void draw(Picture& picture, Time now) {
-    const SizePx size = picture.size();
-    const TextStyle style{.height_px = std::max(12.0, size.height / 40.0), .colour = kBright};
-    const int pad_px = static_cast<int>(style.height_px / 2), margin_px = size.width / 100;
-    const SizePx line{
-        std::min(text_width_px(words(now), style) + 2 * pad_px, size.width - 2 * margin_px),
-        static_cast<int>(style.height_px) + 2 * pad_px};
-    if (words_.empty() || line.width < 1 || line.height + margin_px > size.height) return;
-    Image image = Image::filled(line.width, line.height, kDarkPaper);
-    draw_text(image, pad_px, pad_px, words_, style);
-    picture.write(image, margin_px, margin_px);
-  }
-
- private:
-  std::string words_;
-  Time until_{};
-};
 
 class Viewer {
  public:

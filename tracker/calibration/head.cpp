@@ -19,10 +19,10 @@ namespace {
 using Points = std::vector<Vec3>;
 using Order = std::vector<std::size_t>;
 
-constexpr double kGap_m = 0.03;      // by which rays of one LED may pass each other
-constexpr double kWorstMisfit_m = 1;    // of no moments: worse than any
-constexpr double kMisfit_m = 0.02;   // rms of a moment's points from the helmet's
-constexpr std::size_t kTrials = 60;  // moments that choose the shape
+constexpr double kGap_m = 0.03;       // by which rays of one LED may pass each other
+constexpr double kWorstMisfit_m = 1;  // of no moments: worse than any
+constexpr double kMisfit_m = 0.02;    // rms of a moment's points from the helmet's
+constexpr std::size_t kTrials = 60;   // moments that choose the shape
 
 /// What two cameras saw at one time, all LEDs in both; and, once they are matched, which is which.
 struct Moment {
