@@ -18,6 +18,7 @@
 #include "renderer/import_geometry.h"
 #include "renderer/import_materials.h"
 #include "renderer/import_nodes.h"
+#include "renderer/import_opengex.h"
 #include "renderer/import_skin.h"
 #include "renderer/import_textures.h"
 
@@ -31,6 +32,7 @@ constexpr const char* kBrokenRemedy =
 constexpr const char* kGltf2Loader = "glTF2 Importer";
 constexpr const char* kObjLoader = "Wavefront Object Importer";
 constexpr const char* kFbxLoader = "Autodesk FBX Importer";
+constexpr const char* kOpenGexLoader = "Open Game Engine Exchange";
 constexpr const char* kBlenderLoader = "Blender 3D Importer (http://www.blender3d.org)";
 /// Whose formats have z up, and whose scenes Assimp 5.2 leaves so.
 constexpr std::array kZUpLoaders = {std::string_view(kBlenderLoader),
@@ -138,8 +140,10 @@ const aiScene& read_with_assimp(Assimp::Importer& importer, const std::string& f
 }
 
 /// glTF 2.0 (3.4) and X3D (4.3.6) are in metres; Collada's loader already scales the root by the
-/// file's unit; FBX states centimetres per unit and its loader leaves them.
-std::optional<double> metres_per_unit(const aiScene& source, const std::string& loader) {
+/// file's unit; FBX states centimetres per unit, OpenGEX metres, and their loaders leave them.
+std::optional<double> metres_per_unit(const aiScene& source, const std::string& file) {
+  const std::string loader = loader_of(source);
+  if (loader == kOpenGexLoader) return opengex_metrics(file).metres_per_unit;
   for (const char* metric :
        {kGltf2Loader, "glTF Importer", "Extensible 3D(X3D) Importer", "Collada Importer"})
     if (loader == metric) return 1.0;
@@ -168,10 +172,15 @@ std::optional<Eigen::Vector3f> stated_axis(const aiMetadata& metadata, const std
   return Eigen::Vector3f::Unit(axis) * (sign < 0 ? -1.0f : 1.0f);
 }
 
-/// What turns the file's axes into ours, where Assimp 5.2 leaves that to us: FBX states them, and
-/// some formats' are always the same (z up).
-std::optional<Eigen::Matrix4f> upright_from_file(const aiScene& source, const std::string& loader) {
+/// What turns the file's axes into ours, where Assimp 5.2 leaves that to us: FBX and OpenGEX state
+/// them, and some formats' are always the same (z up).
+std::optional<Eigen::Matrix4f> upright_from_file(const aiScene& source, const std::string& file) {
+  const std::string loader = loader_of(source);
   if (!source.mRootNode->mTransformation.IsIdentity()) return std::nullopt;
+  if (loader == kOpenGexLoader) {
+    const int up = opengex_metrics(file).up_axis;
+    return upright(Eigen::Vector3f::Unit(up == 0 ? 1 : 0), Eigen::Vector3f::Unit(up));
+  }
   if (std::ranges::find(kZUpLoaders, loader) != kZUpLoaders.end())
     return upright(Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ());
   if (loader != kFbxLoader || !source.mMetaData) return std::nullopt;
@@ -293,9 +302,8 @@ ImportResult converted(const aiScene& source, const std::string& file, const Imp
   const ImportedNodes nodes = import_nodes(source, result.warnings);
   hang_meshes(nodes, import_meshes(source, file, limits, nodes, result), scene);
   scene.animations = import_animations(source, nodes.by_name);
-  const std::string loader = loader_of(source);
-  scene.metres_per_unit = metres_per_unit(source, loader);
-  if (const std::optional<Eigen::Matrix4f> turned = upright_from_file(source, loader))
+  scene.metres_per_unit = metres_per_unit(source, file);
+  if (const std::optional<Eigen::Matrix4f> turned = upright_from_file(source, file))
     scene.nodes.front().parent_from_node = *turned;
   check_drawable(scene, file);
   return result;

@@ -188,6 +188,39 @@ TEST(RealModels, BlendersZIsUp) {
   EXPECT_GT(size.y(), 2 * size.z());
 }
 
+// Lies in the file's x and y; 2 of its units long, 1 wide.
+std::string opengex_triangle(const std::string& metrics) {
+  return metrics + R"(
+GeometryNode $node1 {
+  ObjectRef {ref {$geometry1}}
+  Transform {float[16] {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}
+}
+GeometryObject $geometry1 {
+  Mesh (primitive = "triangles") {
+    VertexArray (attrib = "position") {float[3] {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}}
+    VertexArray (attrib = "normal") {float[3] {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}
+    IndexArray {unsigned_int32[3] {{0, 1, 2}}}
+  }
+}
+)";
+}
+
+TEST(RealModels, OpenGexStatesItsUnitAndUp) {
+  const test::TemporaryFolder folder;
+  const auto imported = [&](const std::string& metrics) {
+    return import_scene(folder.write("triangle.ogex", opengex_triangle(metrics))).scene;
+  };
+  const Scene inches = imported(
+      "Metric (key = \"distance\") {float {0.0254}}\nMetric (key=\"up\") {string {\"y\"}}");
+  EXPECT_NEAR(*inches.metres_per_unit, 0.0254, 1e-9);
+  EXPECT_TRUE(bounds_in_scene(inches).diagonal().isApprox(Eigen::Vector3f(2, 1, 0)));
+  const Scene plain = imported("");
+  EXPECT_EQ(plain.metres_per_unit, 1.0);
+  EXPECT_TRUE(bounds_in_scene(plain).diagonal().isApprox(Eigen::Vector3f(2, 0, 1)));
+  const Scene x_up = imported("Metric (key = \"up\") {string {\"x\"}}");
+  EXPECT_TRUE(bounds_in_scene(x_up).diagonal().isApprox(Eigen::Vector3f(1, 2, 0)));
+}
+
 // A dwarf and a goblet are taller than deep; a walker is longer than tall; a ground lies.
 TEST(RealModels, OtherFormatsZIsUpToo) {
   const auto tall_by_deep = [](const char* file) {
