@@ -12,6 +12,7 @@
 #include "app/eye_source.h"
 #include "app/remote_eye.h"
 #include "app/stage.h"
+#include "app/still_eye.h"
 #include "app/stop_signals.h"
 #include "app/touch_eye.h"
 #include "app/wall_console.h"
@@ -23,7 +24,6 @@
 #include "core/log.h"
 #include "renderer/clips.h"
 #include "renderer/resources.h"
-#include "tracker/eye_rest.h"
 
 namespace vindu::app {
 namespace {
@@ -153,7 +153,7 @@ class MasterRun {
     eye_in_wall_ = eye.eye_in_wall;
     const FrameState state = {
         .photon_time = photon,
-        .eye_in_wall = at_rest(eye, now),
+        .eye_in_wall = still_.at(eye, stage_.corners_in_wall(), now),
         .navigation = stage_.navigation,
         .animation_time_s = stage_.plays() ? seconds(now - stage_.clip_start) : 0,
         .clip = stage_.clip,
@@ -185,17 +185,6 @@ class MasterRun {
     if (captured_.asked.empty() || !wall_.open()) return;
     for (const CommandMessage& command : std::exchange(captured_.asked, {}))
       reply(command, true, text_of(captured_.frame));
-  }
-
-  /// The eye to show: the tracked one, without its trembling.
-  Vec3 at_rest(const EyeNow& eye, Time now) {
-    const double slack_m = eye_slack_m(site_.wall, eye.eye_in_wall, stage_.corners_in_wall());
-    double sigma_m = 0;
-    if (eye.pose && !site_.heads.empty())
-      sigma_m = eye_sigma_m(
-          *eye.pose,
-          site_.heads[static_cast<std::size_t>(eye.pose->object) % site_.heads.size()].eye_in_head);
-    return rest_.update(eye.eye_in_wall, slack_m, sigma_m, now);
   }
 
   void publish_camera(const Vec3& eye_in_wall) {
@@ -349,7 +338,7 @@ class MasterRun {
   std::map<std::uint64_t, Stage> stages_;  // by scene
   std::uint64_t staged_scene_ = 0;
   Stage stage_;  // of the scene that is shown
-  EyeRest rest_;
+  StillEye still_{site_};
   struct Glide {
     Vec3 from, to;  // translation of wall_from_scene
     Time start{};

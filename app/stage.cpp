@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "app/common.h"
 #include "core/sha256.h"
 #include "renderer/clips.h"
 
@@ -18,6 +17,14 @@ std::array<Vec3, 8> Stage::corners_in_wall() const {
   return corners;
 }
 
+Stage stage_of(const LoadedScene& loaded) {
+  return {.navigation = loaded.navigation,
+          .box_in_scene = loaded.packed.bounds_in_scene,
+          .clips = clip_names(loaded.packed.scene),
+          .clip = loaded.clip,
+          .model = loaded.packed.scene.name};
+}
+
 std::string path_for_tiles(const std::string& model, const Site& site) {
   const std::string file = model.empty() ? site.scene.model : model;
   return file.empty() ? "asset:show/show.glb" : std::filesystem::absolute(file).string();
@@ -28,12 +35,7 @@ void Staging::start(const Wish& wish, const Site& site) {
   reading_.start([wish, &site](const std::stop_token& stop) {
     const std::string file = model_file(path_for_tiles(wish.model, site));
     const LoadedScene loaded = load_scene(wish.model, wish.place, site, wish.clip, stop);
-    return Staged{{.navigation = loaded.navigation,
-                   .box_in_scene = loaded.packed.bounds_in_scene,
-                   .clips = clip_names(loaded.packed.scene),
-                   .clip = loaded.clip,
-                   .model = loaded.packed.scene.name},
-                  sha256_of_file(file).value_or("")};
+    return Staged{stage_of(loaded), sha256_of_file(file).value_or("")};
   });
 }
 

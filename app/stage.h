@@ -1,5 +1,5 @@
-// A wall's scene as its master knows it: where it stands and what it plays; and how a model becomes
-// one, beside the frames that go on.
+// A scene without its geometry: where it stands and what it plays. A wall's master knows it so; and
+// reads models to know, beside the frames that go on.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/background.h"
+#include "app/common.h"
 #include "core/frame_state.h"
 #include "core/site.h"
 #include "renderer/scene.h"
@@ -27,6 +28,8 @@ struct Stage {
   /// Of the box, in wall.
   std::array<Vec3, 8> corners_in_wall() const;
 };
+
+Stage stage_of(const LoadedScene& loaded);
 
 /// As tiles are told: the show is part of every installation, a model has one path on all hosts. An
 /// empty name is the wall file's scene.

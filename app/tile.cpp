@@ -22,6 +22,7 @@
 #include "renderer/gpu_timer.h"
 #include "renderer/notice.h"
 #include "renderer/resources.h"
+#include "renderer/scene_preparation.h"
 #include "renderer/surface.h"
 #include "renderer/wall_renderer.h"
 
@@ -158,6 +159,9 @@ std::unique_ptr<Surface> surface_for(const TileCommand& command, const Wall& par
                       .fullscreen = part.tiles.size() == 1 && !command.scale});
 }
 
+/// What a step of bringing a scene to the GPU may take.
+constexpr Duration kStep = std::chrono::milliseconds(3);
+
 class TileRun {
  public:
   TileRun(const TileCommand& command, const Site& site)
@@ -202,6 +206,12 @@ class TileRun {
       log_warning(tile, state.text);
   }
 
+  /// A scene that was read, on its way to the GPU.
+  struct Coming {
+    std::uint64_t revision = 0;
+    ScenePreparation scene;
+  };
+
   static Topics hears(const Site& site, const Wall& part) {
     Topics topics = WallTile::hears();
     if (TileStatistics::hears(site, part)) topics.add(Topic::report);
@@ -225,9 +235,10 @@ class TileRun {
 
   void wait(Time now) {
     if (tile_.alone(now)) notice(now);
-    // A display's refresh and a scene that is being read wake nobody.
-    const bool poll = !surface_->free() || loading_.running();
     const Time wake = tile_.wake_time(now);
+    if (coming_ && coming_->scene.free() && wake - now > kStep) return bring_to_gpu();
+    // A display's refresh and a scene that is on its way wake nobody.
+    const bool poll = !surface_->free() || loading_.running() || coming_;
     bus_->wait(WallTile::hears(), poll ? std::min(wake, now + std::chrono::milliseconds(1)) : wake);
   }
 
@@ -267,28 +278,48 @@ class TileRun {
     if (shown_.wanted())
       for (std::size_t i = 0; i < part_.tiles.size(); ++i)
         shown_.add(now, frame_, part_.tiles[i].name, painter_->renderer().read_tile(i));
+    if (coming_ && coming_->scene.free()) bring_to_gpu();  // where there is never time to wait
   }
 
   void handle_scenes() {
     if (auto scene = tile_.take_scene()) wanted_ = std::move(scene);
-    if (loading_.done()) {
-      const std::uint64_t revision = loading_.revision();
+    if (loading_.done()) take_loaded();
+    if (!wanted_ || loading_.running()) return;
+    loading_.start(*wanted_);
+    wanted_.reset();
+  }
+
+  void take_loaded() {
+    coming_.reset();  // its memory, before more is taken
+    const std::uint64_t revision = loading_.revision();
+    try {
+      coming_.emplace(Coming{revision, {loading_.take(), painter_->renderer().renderer().look()}});
+    } catch (const Error& error) {
+      could_not_load(revision, error);
+    }
+  }
+
+  /// A short step: frames go on. The last one, with what drivers do at first, is a long one, for
+  /// which nobody waits.
+  void bring_to_gpu() {
+    const std::uint64_t revision = coming_->revision;
+    try {
+      if (!coming_->scene.step()) return;
       tile_.loads(clock_.now());
-      try {
-        painter_->renderer().prepare(loading_.take());
-        prepared_ = revision;
-        tile_.loaded(revision);
-      } catch (const Error& error) {
-        failed_ = error.what();
-        failed_revision_ = revision;
-        log_warning(part_.tiles.front().name, failed_);
-        tile_.could_not_load(revision, failed_);
-      }
+      painter_->renderer().prepare(coming_->scene.take());
+      prepared_ = revision;
+      tile_.loaded(revision);
+    } catch (const Error& error) {
+      could_not_load(revision, error);
     }
-    if (wanted_ && !loading_.running()) {
-      loading_.start(*wanted_);
-      wanted_.reset();
-    }
+    coming_.reset();
+  }
+
+  void could_not_load(std::uint64_t revision, const Error& error) {
+    failed_ = error.what();
+    failed_revision_ = revision;
+    log_warning(part_.tiles.front().name, failed_);
+    tile_.could_not_load(revision, failed_);
   }
 
   std::vector<std::string> notice_lines(Time now) const {
@@ -320,6 +351,7 @@ class TileRun {
   Loading loading_;
   std::optional<SceneMessage> wanted_;
   FrameMessage frame_;
+  std::optional<Coming> coming_;
   std::uint64_t prepared_ = 0, failed_revision_ = 0;
   std::string failed_;
   bool has_scene_ = false;

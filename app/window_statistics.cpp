@@ -15,7 +15,7 @@ void WindowStatistics::showed(const FrameRecord& record) {
 }
 
 bool WindowStatistics::on() {
-  if (window_.take_f1() % 2 == 1) on_ = !on_;
+  if (window_.take_presses(WindowKey::f1) % 2 == 1) on_ = !on_;
   return on_;
 }
 

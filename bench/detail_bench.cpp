@@ -77,7 +77,7 @@ Drawn draw(const Scene& scene, const Box3f& bounds, const Options& options, bool
   const Look look{options.unlit ? Style::unlit : Style::lit, 1,
                   options.shadows ? Shadows::crisp : Shadows::none};
   const Stage stage = stage_for(bounds, size);
-  GpuScene gpu_scene(pack(scene), look);
+  GpuScene gpu_scene = uploaded(pack(scene), look);
   gpu_scene.pose(world_from_scan(bounds), 0);
   const SceneRenderer renderer(look);
   Canvas canvas(size, look);

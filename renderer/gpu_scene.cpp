@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <glm/glm.hpp>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -58,13 +59,18 @@ GpuMaterial gpu_material(const Material& material, ColourCoding coding, Style st
   return block;
 }
 
-/// The light of colours, in 16 bits so that the dark ones keep their steps.
-std::vector<std::array<std::uint16_t, 4>> light_of_srgb(std::span<const Rgba8> colours) {
-  std::array<std::uint16_t, 256> codes{};
-  for (int code = 0; code < 256; ++code)
-    codes[code] = static_cast<std::uint16_t>(
-        std::lround(linear_from_srgb(static_cast<float>(code) / 255) * 65535));
-  std::vector<std::array<std::uint16_t, 4>> lights;
+/// Of a colour, in 16 bits so that the dark ones keep their steps.
+using Light = std::array<std::uint16_t, 4>;
+
+std::vector<Light> light_of_srgb(std::span<const Rgba8> colours) {
+  static const auto codes = [] {
+    std::array<std::uint16_t, 256> lights{};
+    for (std::size_t code = 0; code < lights.size(); ++code)
+      lights[code] = static_cast<std::uint16_t>(
+          std::lround(linear_from_srgb(static_cast<float>(code) / 255) * 65535));
+    return lights;
+  }();
+  std::vector<Light> lights;
   lights.reserve(colours.size());
   for (const auto& [r, g, b, a] : colours)
     lights.push_back({codes[r], codes[g], codes[b], static_cast<std::uint16_t>(257 * a)});
@@ -97,32 +103,45 @@ void add_attribute(GLuint array, VertexBuffer buffer, Attribute attribute, const
 
 /// Empty lists are no buffer.
 template <class Value>
-gl::Buffer add_buffer(GLuint array, VertexBuffer buffer, std::span<const Value> values) {
-  if (values.empty()) return {};
-  gl::Buffer made = gl::make_buffer(values.data(), values.size_bytes());
-  glVertexArrayVertexBuffer(array, buffer, made.name(), 0, sizeof(Value));
+gl::Buffer add_buffer(GLuint array, VertexBuffer buffer, std::span<const Value> values,
+                      Upload& upload) {
+  gl::Buffer made = make_buffer(values, upload);
+  if (made) glVertexArrayVertexBuffer(array, buffer, made.name(), 0, sizeof(Value));
   return made;
-}
-
-void check_memory(const std::string& name) {
-  if (glGetError() == GL_OUT_OF_MEMORY)
-    throw Error({"is too large for this GPU's memory", name, "use a smaller model"});
 }
 
 }  // namespace
 
-GpuScene::GpuScene(const PackedScene& packed, const Look& look)
-    : triangle_count_(packed.scene.triangle_count()), skin_(packed), textures_(packed, look) {
+void check_gpu_memory(const std::string& name) {
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    throw Error({"is too large for this GPU's memory", name, "use a smaller model"});
+}
+
+GpuScene::GpuScene(const PackedScene& packed, const Look& look, Upload& upload)
+    : triangle_count_(packed.scene.triangle_count()),
+      skin_(packed, upload),
+      textures_(packed, look, upload) {
   const SceneOutline& scene = packed.scene;
   skeleton_.nodes = scene.nodes;
   skeleton_.animations = scene.animations;
   list_draws(packed);
-  upload_geometry(packed.geometry);
-  upload_colours(packed.geometry.colours, scene.colours, look.style);
-  upload_materials(scene, look.style);
+  add_geometry(packed.geometry, upload);
+  if (scene.colours == ColourCoding::linear || look.style == Style::unlit)
+    add_colours(packed.geometry.colours, upload);
+  else
+    add_lights(packed.geometry.colours, upload);
+  add_materials(scene, look.style);
   nodes_ = gl::make_buffer(nullptr, scene.nodes.size() * kBlockBytes, GL_DYNAMIC_STORAGE_BIT);
-  check_memory(scene.name);
+  check_gpu_memory(scene.name);
   pose(Mat4::Identity(), 0);
+}
+
+GpuScene uploaded(const PackedScene& packed, const Look& look) {
+  Upload upload;
+  GpuScene scene(packed, look, upload);
+  while (!upload.done()) upload.advance(std::numeric_limits<std::size_t>::max());
+  check_gpu_memory(packed.scene.name);
+  return scene;
 }
 
 void GpuScene::list_draws(const PackedScene& packed) {
@@ -151,18 +170,18 @@ void GpuScene::list_draws(const PackedScene& packed) {
   });
 }
 
-void GpuScene::upload_geometry(const PackedGeometry& geometry) {
+void GpuScene::add_geometry(const PackedGeometry& geometry, Upload& upload) {
   vertex_array_ = gl::make_vertex_array();
   const GLuint array = vertex_array_.name();
-  vertices_ = add_buffer(array, kVertices, geometry.vertices);
-  indices_ = gl::make_buffer(geometry.indices.data(), geometry.indices.size_bytes());
+  vertices_ = add_buffer(array, kVertices, geometry.vertices, upload);
+  indices_ = make_buffer(geometry.indices, upload);
   glVertexArrayElementBuffer(array, indices_.name());
   add_attribute(array, kVertices, kPosition,
                 {3, GL_FLOAT, offsetof(PackedVertex, position_in_node)});
   add_attribute(array, kVertices, kNormal, {2, GL_SHORT, offsetof(PackedVertex, normal_in_node)});
-  uvs_ = add_buffer(array, kUvs, geometry.uvs);
+  uvs_ = add_buffer(array, kUvs, geometry.uvs, upload);
   if (uvs_) add_attribute(array, kUvs, kUv, {2});
-  details_ = add_buffer(array, kDetails, geometry.details);
+  details_ = add_buffer(array, kDetails, geometry.details, upload);
   if (details_) {
     add_attribute(array, kDetails, kTangent,
                   {3, GL_SHORT, offsetof(PackedDetail, tangent_in_node)});
@@ -171,19 +190,27 @@ void GpuScene::upload_geometry(const PackedGeometry& geometry) {
   skin_.add_attributes(array, kInfluences);
 }
 
-void GpuScene::upload_colours(std::span<const Rgba8> colours, ColourCoding coding, Style style) {
-  const GLuint array = vertex_array_.name();
-  if (coding == ColourCoding::linear || style == Style::unlit) {
-    colours_ = add_buffer(array, kColours, colours);
-    if (colours_) add_attribute(array, kColours, kColour, {4, GL_UNSIGNED_BYTE});
-    return;
-  }
-  const auto lights = light_of_srgb(colours);
-  colours_ = add_buffer(array, kColours, std::span(std::as_const(lights)));
-  if (colours_) add_attribute(array, kColours, kColour, {4, GL_UNSIGNED_SHORT});
+void GpuScene::add_colours(std::span<const Rgba8> colours, Upload& upload) {
+  colours_ = add_buffer(vertex_array_.name(), kColours, colours, upload);
+  if (colours_) add_attribute(vertex_array_.name(), kColours, kColour, {4, GL_UNSIGNED_BYTE});
 }
 
-void GpuScene::upload_materials(const SceneOutline& scene, Style style) {
+void GpuScene::add_lights(std::span<const Rgba8> colours, Upload& upload) {
+  if (colours.empty()) return;
+  const GLuint array = vertex_array_.name();
+  colours_ = gl::make_buffer(nullptr, colours.size() * sizeof(Light), GL_DYNAMIC_STORAGE_BIT);
+  glVertexArrayVertexBuffer(array, kColours, colours_.name(), 0, sizeof(Light));
+  add_attribute(array, kColours, kColour, {4, GL_UNSIGNED_SHORT});
+  upload.add({.items = colours.size(),
+              .item_bytes = sizeof(Light),
+              .move = [name = colours_.name(), colours](std::size_t first, std::size_t count) {
+                const auto lights = light_of_srgb(colours.subspan(first, count));
+                glNamedBufferSubData(name, static_cast<GLintptr>(first * sizeof(Light)),
+                                     static_cast<GLsizeiptr>(count * sizeof(Light)), lights.data());
+              }});
+}
+
+void GpuScene::add_materials(const SceneOutline& scene, Style style) {
   std::vector<std::byte> blocks(scene.materials.size() * kBlockBytes);
   for (std::size_t index = 0; index < scene.materials.size(); ++index) {
     const GpuMaterial material = gpu_material(scene.materials[index], scene.colours, style);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/rigid3.h"
@@ -18,10 +19,9 @@ namespace vindu {
 
 class GpuScene {
  public:
-  /// Keeps the scene's nodes and animations, not its geometry. Throws Error when the GPU's memory
-  /// does not suffice.
-  GpuScene(const PackedScene& packed, const Look& look);
-  GpuScene(const PackedScene& packed, Style style) : GpuScene(packed, Look{style}) {}
+  /// Keeps the scene's nodes and animations, not its geometry, which must live until `upload` is
+  /// done; then the scene can be drawn. Throws Error when the GPU's memory does not suffice.
+  GpuScene(const PackedScene& packed, const Look& look, Upload& upload);
 
   /// Once a frame, before any view is drawn: where the scene stands, which of its animations plays
   /// and where that is.
@@ -80,9 +80,10 @@ class GpuScene {
   void bind(const Draw& draw, SurfaceKind kind) const;
 
  private:
-  void upload_geometry(const PackedGeometry& geometry);
-  void upload_colours(std::span<const Rgba8> colours, ColourCoding coding, Style style);
-  void upload_materials(const SceneOutline& scene, Style style);
+  void add_geometry(const PackedGeometry& geometry, Upload& upload);
+  void add_colours(std::span<const Rgba8> colours, Upload& upload);
+  void add_lights(std::span<const Rgba8> colours, Upload& upload);
+  void add_materials(const SceneOutline& scene, Style style);
   void list_draws(const PackedScene& packed);
   void place_draws();
   template <class Fine>
@@ -111,5 +112,11 @@ class GpuScene {
   GpuSkin skin_;
   GpuTextures textures_;
 };
+
+/// At once. Throws Error when the GPU's memory does not suffice.
+GpuScene uploaded(const PackedScene& packed, const Look& look);
+
+/// Throws Error of the scene of this name when an OpenGL call has run out of memory.
+void check_gpu_memory(const std::string& name);
 
 }  // namespace vindu

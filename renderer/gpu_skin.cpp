@@ -16,10 +16,10 @@ using Rows = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 
 }  // namespace
 
-GpuSkin::GpuSkin(const PackedScene& packed) : joints_(packed.scene.joints) {
+GpuSkin::GpuSkin(const PackedScene& packed, Upload& upload) : joints_(packed.scene.joints) {
   const auto influences = packed.geometry.influences;
   if (influences.empty()) return;
-  influences_ = gl::make_buffer(influences.data(), influences.size_bytes());
+  influences_ = make_buffer(influences, upload);
   palette_ = gl::make_buffer(nullptr, joints_.size() * sizeof(Rows), GL_DYNAMIC_STORAGE_BIT);
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);

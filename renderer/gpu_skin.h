@@ -7,6 +7,7 @@
 
 #include "renderer/gl/handle.h"
 #include "renderer/packed_scene.h"
+#include "renderer/upload.h"
 
 namespace vindu {
 
@@ -16,7 +17,7 @@ constexpr GLuint kPaletteUnit = 6;
 class GpuSkin {
  public:
   /// Keeps the scene's joints. Without any this costs nothing.
-  explicit GpuSkin(const PackedScene& packed);
+  GpuSkin(const PackedScene& packed, Upload& upload);
 
   /// To a vertex array: `binding` is a free one of its buffers.
   void add_attributes(GLuint vertex_array, GLuint binding) const;

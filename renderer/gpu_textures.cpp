@@ -22,7 +22,8 @@ GLint gl_wrap(Wrap wrap) {
 
 }  // namespace
 
-GpuTextures::GpuTextures(const PackedScene& packed, const Look& look) : look_(look) {
+GpuTextures::GpuTextures(const PackedScene& packed, const Look& look, Upload& upload)
+    : look_(look) {
   for (const Material& material : packed.scene.materials)
     for (std::size_t i = 0; i < kTextureRoles; ++i) {
       const auto role = static_cast<TextureRole>(i);
@@ -33,10 +34,10 @@ GpuTextures::GpuTextures(const PackedScene& packed, const Look& look) : look_(lo
       make_sampler(use.wrap_u, use.wrap_v);
     }
   for (const PackedTexture& texture : packed.textures)
-    if (textures_.contains({texture.image, texture.srgb})) upload(texture);
+    if (textures_.contains({texture.image, texture.srgb})) add(texture, upload);
 }
 
-void GpuTextures::upload(const PackedTexture& packed) {
+void GpuTextures::add(const PackedTexture& packed, Upload& upload) {
   gl::Texture& texture = textures_.at({packed.image, packed.srgb}) = gl::make_texture_2d();
   SizePx size = {packed.width_px, packed.height_px};
   const int levels = std::bit_width(static_cast<unsigned>(std::max(size.width, size.height)));
@@ -45,9 +46,17 @@ void GpuTextures::upload(const PackedTexture& packed) {
                      size.height);
   const Rgba8* pixels = packed.pixels.data();
   for (int level = 0; level < levels; ++level, size = half_of(size)) {
-    glTextureSubImage2D(texture.name(), level, 0, 0, size.width, size.height, GL_RGBA,
-                        GL_UNSIGNED_BYTE, pixels);
-    pixels += static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    const auto width = static_cast<std::size_t>(size.width),
+               height = static_cast<std::size_t>(size.height);
+    upload.add({.items = height,
+                .item_bytes = width * sizeof(Rgba8),
+                .move = [name = texture.name(), level, pixels, width](std::size_t first,
+                                                                      std::size_t count) {
+                  glTextureSubImage2D(name, level, 0, static_cast<GLint>(first),
+                                      static_cast<GLsizei>(width), static_cast<GLsizei>(count),
+                                      GL_RGBA, GL_UNSIGNED_BYTE, pixels + first * width);
+                }});
+    pixels += width * height;
   }
 }
 

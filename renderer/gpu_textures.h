@@ -7,6 +7,7 @@
 
 #include "renderer/canvas.h"
 #include "renderer/packed_scene.h"
+#include "renderer/upload.h"
 
 namespace vindu {
 
@@ -15,14 +16,14 @@ constexpr GLuint kShadowUnit = kTextureRoles;
 
 class GpuTextures {
  public:
-  /// Uploads what the scene's materials use.
-  GpuTextures(const PackedScene& packed, const Look& look);
+  /// What the scene's materials use; `upload` fills them.
+  GpuTextures(const PackedScene& packed, const Look& look, Upload& upload);
 
   /// To the unit of its role.
   void bind(const TextureUse& use, TextureRole role) const;
 
  private:
-  void upload(const PackedTexture& packed);
+  void add(const PackedTexture& packed, Upload& upload);
   void make_sampler(Wrap u, Wrap v);
 
   Look look_;

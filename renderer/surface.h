@@ -72,6 +72,8 @@ struct ScreenReport {
 /// Why a reported size cannot be right, or empty: 40 to 400 dots per inch, pixels nearly square.
 std::string doubt_about(const ScreenReport& screen);
 
+enum class WindowKey { f1, f12 };
+
 class Window : public Surface {
  public:
   /// The screen that most of the window is on.
@@ -82,8 +84,8 @@ class Window : public Surface {
   /// Pointer from -1 to 1 across the content, y up; wheel turns since the last call.
   virtual Vec2 pointer() const = 0;
   virtual double take_wheel() = 0;
-  /// How often F1 was pressed since the last call.
-  virtual int take_f1() = 0;
+  /// How often the key was pressed since the last call.
+  virtual int take_presses(WindowKey key) = 0;
   /// What present() does without a new picture.
   virtual void handle_events() = 0;
   /// Whether its picture was lost since the last call, by what lay over it.

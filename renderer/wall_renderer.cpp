@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vindu {
 namespace {
@@ -67,12 +68,12 @@ WallRenderer::WallRenderer(const Wall& wall, double scale, const Look& look, con
 }
 
 void WallRenderer::show(const PackedScene& packed) {
-  prepare(packed);
+  prepare(uploaded(packed, renderer_.look()));
   show_prepared();
 }
 
-void WallRenderer::prepare(const PackedScene& packed) {
-  prepared_ = std::make_unique<GpuScene>(packed, renderer_.look());
+void WallRenderer::prepare(GpuScene scene) {
+  prepared_ = std::make_unique<GpuScene>(std::move(scene));
   prepared_->pose(Mat4::Identity(), 0);
   const auto view = tile_view(wall_.tiles.front().corners, Vec3(0, 0, 2));
   const GpuScene* const drawn = prepared_.get();

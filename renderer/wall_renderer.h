@@ -40,9 +40,9 @@ class WallRenderer {
 
   /// Replaces the scene; when that throws, the old one stays.
   void show(const PackedScene& packed);
-  /// The same in two steps: loads it beside the one that is shown, and draws it once unseen, so
-  /// that drivers have done what they do at first; then changes to it at once.
-  void prepare(const PackedScene& packed);
+  /// The same in two steps: draws it once unseen, so that drivers have done what they do at first,
+  /// which takes as long as a frame or longer; then changes to it at once.
+  void prepare(GpuScene scene);
   void show_prepared();
 
   /// Draws all tiles, or only one, into picture().

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <string>
 
 #include "core/error.h"
@@ -107,7 +108,9 @@ class GlfwWindow final : public Window {
     glfwSetScrollCallback(
         window_, [](GLFWwindow* window, double, double turns) { self(window).wheel_ += turns; });
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
-      if (key == GLFW_KEY_F1 && action == GLFW_PRESS) ++self(window).f1_;
+      if (action != GLFW_PRESS) return;
+      if (key == GLFW_KEY_F1) ++self(window).presses_[WindowKey::f1];
+      if (key == GLFW_KEY_F12) ++self(window).presses_[WindowKey::f12];
     });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { self(window).damaged_ = true; });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
@@ -164,7 +167,7 @@ class GlfwWindow final : public Window {
   }
   double take_wheel() override { return std::exchange(wheel_, 0); }
   bool take_damaged() override { return std::exchange(damaged_, false); }
-  int take_f1() override { return std::exchange(f1_, 0); }
+  int take_presses(WindowKey key) override { return std::exchange(presses_[key], 0); }
   std::optional<std::string> take_dropped_file() override {
     return std::exchange(dropped_, std::nullopt);
   }
@@ -196,7 +199,7 @@ class GlfwWindow final : public Window {
   GLFWwindow* window_ = nullptr;
   gl::Fence swapped_;
   double wheel_ = 0;
-  int f1_ = 0;
+  std::map<WindowKey, int> presses_;
   bool damaged_ = false;
   std::optional<std::string> dropped_;
 };

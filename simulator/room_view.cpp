@@ -9,7 +9,7 @@ namespace vindu {
 namespace {
 
 GpuScene load(const char* asset) {
-  return GpuScene(pack(import_scene(find_asset(asset)).scene), Style::lit);
+  return uploaded(pack(import_scene(find_asset(asset)).scene), Look{});
 }
 
 }  // namespace

@@ -106,6 +106,25 @@ TEST_F(Windows, ShowWhatIsDroppedOnThemAndKeepTheirSceneForWhatIsNoModel) {
   EXPECT_EQ(view.end(), 0) << said();
 }
 
+TEST_F(Windows, SaveAPictureAtF12AndSayWhere) {
+  const Child view = open({small_model(), "--eye", "0,0.1,0.6", "--out", path("pictures")});
+  XClient x(display_.name());
+  ASSERT_TRUE(eventually([&] { return is_of_the_room(x.picture().at(20, 20)); }));
+  const std::string name = std::filesystem::path(small_model()).stem().string();
+  for (const char* number : {"-1.png", "-2.png"}) {
+    x.press("F12");
+    const std::string file = path("pictures/" + name + number);
+    ASSERT_TRUE(eventually([&] { return said().find("saved " + file) != std::string::npos; }))
+        << said();
+    const Image picture = read_png(file);
+    EXPECT_EQ(picture.width_px, 1280);
+    EXPECT_EQ(picture.height_px, 720);
+    EXPECT_EQ(picture.at(20, 20), x.picture().at(20, 20));
+    EXPECT_TRUE(eventually([&] { return x.picture().at(20, 700) == kDarkPaper; }));  // words
+    EXPECT_NE(picture.at(20, 700), kDarkPaper);  // which the picture lacks
+  }
+}
+
 TEST_F(Windows, RestWhileNothingMoves) {
   const ProcessResult result = vindu(
       {"view", small_model(), "--eye", "0,0.1,0.6", "--seconds", "2"}, display_.environment());

@@ -117,6 +117,19 @@ void XClient::drop(const std::string& file) {
   await_x([&] { return x_->serve(uris, "XdndFinished"); }, "the window does not say XdndFinished");
 }
 
+void XClient::press(const std::string& key) {
+  for (const int type : {KeyPress, KeyRelease}) {
+    XEvent event{};
+    event.xkey.type = type;
+    event.xkey.window = x_->target;
+    event.xkey.root = x_->root;
+    event.xkey.keycode = XKeysymToKeycode(x_->display, XStringToKeysym(key.c_str()));
+    event.xkey.same_screen = True;
+    XSendEvent(x_->display, x_->target, False, NoEventMask, &event);
+  }
+  XFlush(x_->display);
+}
+
 void XClient::close_window() {
   x_->send("WM_PROTOCOLS", {static_cast<long>(x_->atom("WM_DELETE_WINDOW")), CurrentTime, 0, 0, 0});
 }

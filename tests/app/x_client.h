@@ -1,5 +1,5 @@
-// What a desktop does to a window: drops files on it (XDND, version 5), asks it to close, and shows
-// its pixels. For tests, on a display without a window manager.
+// What a desktop does to a window: drops files on it (XDND, version 5), presses keys, asks it to
+// close, and shows its pixels. For tests, on a display without a window manager.
 #pragma once
 
 #include <memory>
@@ -19,6 +19,8 @@ class XClient {
 
   /// Throws std::runtime_error when the window does not take it.
   void drop(const std::string& file);
+  /// A key by its name for X, "F12": down and up.
+  void press(const std::string& key);
   void close_window();
   /// Of the whole screen.
   Image picture();

@@ -81,7 +81,7 @@ class ClosedLoop : public ::testing::Test {
     const WallFrame frame = renderer.draw({.eye_in_wall = drawn_eye});
     EXPECT_TRUE(frame.black_tiles.empty());
     const SceneRenderer reference(Style::unlit);
-    const GpuScene scene(pack(code), Style::unlit);
+    const GpuScene scene = uploaded(pack(code), Look{Style::unlit});
     Displacements all;
     for (std::size_t index = 0; index < drawn.tiles.size();
          index += static_cast<std::size_t>(every))

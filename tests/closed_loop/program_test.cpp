@@ -66,7 +66,7 @@ TEST(ClosedLoopOfTheProgram, RenderedTilesShowWhatTheEyeSees) {
   const Site site = read_site((folder / "wall.toml").string());
   const auto surface = make_headless_surface();
   const SceneRenderer reference(Style::unlit);
-  const GpuScene scene(pack(code), Style::unlit);
+  const GpuScene scene = uploaded(pack(code), Look{Style::unlit});
   Displacements found;
   for (const char* name : {"tile-0-0", "tile-3-1", "tile-5-2", "tile-6-3"}) {
     const Image drawn = read_png((folder / (std::string(name) + ".png")).string());

@@ -125,8 +125,8 @@ Scene cube_never_culled() {
 TEST_F(CullingGl, NeverLeavesOutABoxThatHasAPixel) {
   Random random;
   Tester tester;
-  GpuScene cube(pack(cube_scene(plain(1, 1, 1))), Style::unlit);
-  GpuScene whole(pack(cube_never_culled()), Style::unlit);
+  GpuScene cube = uploaded(pack(cube_scene(plain(1, 1, 1))), Look{Style::unlit});
+  GpuScene whole = uploaded(pack(cube_never_culled()), Look{Style::unlit});
   int culled_boxes = 0, seen = 0, drawn_for_nothing = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Wall wall = random_wall(random);
@@ -155,7 +155,7 @@ TEST_F(CullingGl, LeavesOutMostOfWhatATileDoesNotShow) {
   for (int index = 0; index < 100; ++index)
     add_square(scene, plain(1, 1, 1),
                moved_by(static_cast<float>(index) - 50, 0, -1) * scaled_by(.4f, .4f, 1));
-  GpuScene gpu_scene(pack(scene), Style::unlit);
+  GpuScene gpu_scene = uploaded(pack(scene), Look{Style::unlit});
   const SceneRenderer renderer(Style::unlit);
   Canvas canvas(kStage_px, Look{Style::unlit});
   const GpuScene* scenes[] = {&gpu_scene};

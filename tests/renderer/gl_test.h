@@ -33,7 +33,7 @@ constexpr SizePx kStage_px{64, 64};
 /// coordinates: x from -1 to 1 is column 0 to 63, y from 1 to -1 row 0 to 63.
 inline Image draw_on_stage(const Scene& scene, Style style, const Vec3& eye_in_world = {0, 0, 2},
                            const Mat4& world_from_scene = Mat4::Identity()) {
-  GpuScene gpu_scene(pack(scene), style);
+  GpuScene gpu_scene = uploaded(pack(scene), Look{style});
   gpu_scene.pose(world_from_scene, 0);
   const SceneRenderer renderer(style);
   Canvas canvas(kStage_px, Look{style});

@@ -41,7 +41,7 @@ class ShadowsGl : public GlTest {
 
   static Image drawn(const Scene& scene, Shadows shadows = Shadows::crisp) {
     ShadowMap map(Look{.shadows = shadows});
-    return drawn(GpuScene(pack(scene), Style::lit), shadows, map);
+    return drawn(uploaded(pack(scene), Look{}), shadows, map);
   }
 
   static int brightness(const Image& image, int x, int y) { return image.at(x, y)[1]; }
@@ -83,7 +83,7 @@ TEST_F(ShadowsGl, HasTheHolesOfAMask) {
 }
 
 TEST_F(ShadowsGl, IsDrawnAnewWhenTheSceneMoves) {
-  GpuScene scene(pack(plate_and(lit_white())), Style::lit);
+  GpuScene scene = uploaded(pack(plate_and(lit_white())), Look{});
   ShadowMap map(Look{.shadows = Shadows::crisp});
   const int in_shadow = brightness(drawn(scene, Shadows::crisp, map), 32, 32);
   Mat4 aside = Mat4::Identity();
@@ -95,7 +95,7 @@ TEST_F(ShadowsGl, IsDrawnAnewWhenTheSceneMoves) {
 }
 
 TEST_F(ShadowsGl, StandsStillWhenTheViewerWalks) {
-  const GpuScene scene(pack(plate_and(lit_white())), Style::lit);
+  const GpuScene scene = uploaded(pack(plate_and(lit_white())), Look{});
   ShadowMap map(Look{.shadows = Shadows::crisp});
   drawn(scene, Shadows::crisp, map);
   const Mat4 before = map.fit().map_from_world;

@@ -14,7 +14,7 @@ using namespace testing;
 class SkinningGl : public GlTest {
  protected:
   static Image drawn(const Scene& scene, Style style, double time_s, int clip = 0) {
-    GpuScene gpu_scene(pack(scene), style);
+    GpuScene gpu_scene = uploaded(pack(scene), Look{style});
     gpu_scene.pose(Mat4::Identity(), time_s, clip);
     const Look look{.style = style, .samples = 1, .shadows = Shadows::crisp};
     const SceneRenderer renderer(look);
@@ -94,12 +94,12 @@ TEST_F(SkinningGl, ShowsTheOutsideOfWhatJointsMirror) {
   Scene scene = stalk_scene(plain(1, 1, 1));
   for (Joint& joint : scene.joints) joint.joint_from_mesh.row(2) *= -1;
   expect_as_by_hand(scene, Style::unlit);
-  GpuScene gpu_scene(pack(scene), Style::unlit);
+  GpuScene gpu_scene = uploaded(pack(scene), Look{Style::unlit});
   EXPECT_EQ(gpu_scene.facing(gpu_scene.draws().front()), GpuScene::Facing::mirrored);
   gpu_scene.pose(Mat4(Vec4(-1, 1, 1, 1).asDiagonal()), 0);
   EXPECT_EQ(gpu_scene.facing(gpu_scene.draws().front()), GpuScene::Facing::front);
   scene.joints[0].joint_from_mesh.row(2) *= -1;
-  gpu_scene = GpuScene(pack(scene), Style::unlit);
+  gpu_scene = uploaded(pack(scene), Look{Style::unlit});
   EXPECT_EQ(gpu_scene.facing(gpu_scene.draws().front()), GpuScene::Facing::mixed);
 }
 
@@ -125,7 +125,7 @@ TEST_F(SkinningGl, DrawsSkinnedAndOtherMeshesOfOneNodeAndMaterialEachInItsWay) {
 
 TEST_F(SkinningGl, CullsByWhereTheJointsAre) {
   const Scene scene = stalk_scene(plain(1, 1, 1));
-  GpuScene gpu_scene(pack(scene), Style::unlit);
+  GpuScene gpu_scene = uploaded(pack(scene), Look{Style::unlit});
   for (const double t_s : {0.0, 0.4, 1.1}) {
     gpu_scene.pose(Mat4::Identity(), t_s);
     Box3f bounds = gpu_scene.bounds_in_world(gpu_scene.draws().front());
@@ -136,7 +136,7 @@ TEST_F(SkinningGl, CullsByWhereTheJointsAre) {
 }
 
 TEST_F(SkinningGl, CostsNothingButItsOwnDrawsWhereNothingIsSkinned) {
-  const GpuScene scene(pack(square_scene(plain(1, 1, 1))), Style::unlit);
+  const GpuScene scene = uploaded(pack(square_scene(plain(1, 1, 1))), Look{Style::unlit});
   EXPECT_EQ(scene.draws().front().kind & kSkinned, 0u);
   EXPECT_TRUE(scene.draws().front().joints.empty());
 }

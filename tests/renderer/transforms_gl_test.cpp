@@ -118,7 +118,7 @@ TEST_F(TransformsGl, PlaysAnAnimation) {
   AnimationChannel channel;
   channel.translations = {{0, left}, {2, right}};
   scene.animations.push_back({.name = "to and fro", .duration_s = 2, .channels = {channel}});
-  GpuScene gpu_scene(pack(scene), Style::unlit);
+  GpuScene gpu_scene = uploaded(pack(scene), Look{Style::unlit});
   gpu_scene.pose(Mat4::Identity(), 0);
   EXPECT_NEAR(gpu_scene.bounds_in_world(gpu_scene.draws().front()).center().x(), -.5, 1e-6);
   gpu_scene.pose(Mat4::Identity(), 1.5);

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "renderer/eye_picture.h"
+#include "renderer/scene_preparation.h"
 #include "tests/renderer/gl_test.h"
 #include "tests/renderer/test_scenes.h"
 
@@ -134,6 +135,58 @@ TEST_F(WallRendererGl, ReplacesTheScene) {
   wall.show(pack(square_scene(plain(0, 0, 1), scaled_by(5, 5, 1))));
   wall.draw({});
   EXPECT_THAT(wall.picture().read().pixels, Each(kBlue));
+}
+
+/// 700 x 700 points of all colours, 17 MB with their triangles, over a picture of 5 MB.
+Scene large_scene() {
+  constexpr int kSide = 700;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  const auto along = [](std::uint32_t at) { return static_cast<float>(at) / kSide; };
+  for (std::uint32_t y = 0; y < kSide; ++y)
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      const auto red = static_cast<std::uint8_t>(x), green = static_cast<std::uint8_t>(y);
+      vertices.push_back({.position_in_node = {2 * along(x) - 1, 2 * along(y) - 1, 0},
+                          .uv = {along(x), along(y)},
+                          .colour = {red, green, 99, 255}});
+      const std::uint32_t at = y * kSide + x;
+      if (x > 0 && y > 0)
+        indices.insert(indices.end(), {at, at - 1, at - kSide, at - kSide, at - 1, at - kSide - 1});
+    }
+  Material material = plain(1, 1, 1);
+  material.double_sided = true;
+  material.texture(TextureRole::base_colour).image = 0;
+  Scene scene;
+  const int mesh = add_mesh(scene, vertices, indices, material);
+  scene.nodes.push_back(empty_node(scaled_by(5, 5, 1)));
+  scene.nodes.back().meshes = {mesh};
+  scene.textures.push_back(Image::filled(1024, 1024, {200, 150, 250, 255}));
+  return scene;
+}
+
+TEST_F(WallRendererGl, TakesASceneThatCameToTheGpuInShortStepsBesideTheOneThatIsShown) {
+  for (const Style style : {Style::unlit, Style::lit}) {
+    const Look look{style, 1, Shadows::none};
+    WallRenderer wall(small_wall(), 1, look);
+    wall.show(pack(large_scene()));
+    wall.draw({});
+    const Image at_once = wall.picture().read();
+    wall.show(pack(square_scene(plain(1, 0, 0), scaled_by(5, 5, 1))));
+    ScenePreparation coming(pack(large_scene()), look);
+    int steps = 1;
+    for (; !coming.step(); ++steps) {
+      wall.draw({});
+      ASSERT_THAT(wall.picture().read().pixels, Each(kRed)) << "after step " << steps;
+    }
+    EXPECT_GE(steps, 5);
+    wall.prepare(coming.take());
+    wall.draw({});
+    EXPECT_THAT(wall.picture().read().pixels, Each(kRed));
+    wall.show_prepared();
+    wall.draw({});
+    EXPECT_EQ(wall.picture().read().pixels, at_once.pixels);
+    EXPECT_NE(at_once.at(10, 10), at_once.at(50, 30));
+  }
 }
 
 TEST_F(WallRendererGl, FollowsNavigation) {
