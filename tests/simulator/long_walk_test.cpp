@@ -90,7 +90,7 @@ TEST(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
       100 * errors.found, 1e3 * errors.eye_rms_m, 1e3 * errors.eye_p95_m, 1e3 * errors.eye_max_m,
       wrong.length_s(), 1e3 * largest_jump_m);
   EXPECT_LE(wrong.length_s(), 0.1);
-  EXPECT_LT(largest_jump_m, 0.025);  // the aim is 20 mm
+  EXPECT_LT(largest_jump_m, 0.02);
   EXPECT_LT(errors.eye_max_m, 0.6);
   EXPECT_GT(tracked, static_cast<int>(frames.size() / 2));
 }
