@@ -135,7 +135,7 @@ std::optional<PoseSample> Tracker::track(Time now, Time photon) {
     track_by_thesis(now);
   else
     track_all(now, photon);
-  const auto pose = followed();
+  auto pose = followed();
   ++counts_.frames;
   ++counts_.frames_by_level[static_cast<std::size_t>(pose ? pose->level : TrackingLevel::lost)];
   return pose;

@@ -58,8 +58,10 @@ class LongestRun {
   int run_ = 0, longest_ = 0;
 };
 
-TEST(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
-  const TrialOptions options = room_with_a_restless_walker(3);
+class LongWalk : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
+  const TrialOptions options = room_with_a_restless_walker(GetParam());
   const auto frames = run_trial(options, {TrackingConfig{}})[0];
   EyeEase ease(Vec3(0, 1.65, 2));
   LongestRun wrong;
@@ -94,6 +96,8 @@ TEST(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
   EXPECT_LT(errors.eye_max_m, 0.6);
   EXPECT_GT(tracked, static_cast<int>(frames.size() / 2));
 }
+
+INSTANTIATE_TEST_SUITE_P(Walkers, LongWalk, ::testing::Values(1, 3));
 
 }  // namespace
 }  // namespace vindu

@@ -21,7 +21,7 @@ struct CameraView {
 };
 
 struct AcquisitionOptions {
-  Vec3 facing_sigma_rad = {radians(25), radians(50), radians(20)};  ///< pitch, yaw, roll in room
+  Vec3 facing_sigma_rad = kFacingSigma_rad;
   double false_dot_cost = 16;   ///< of a dot that is no LED, in sigmas squared
   double missing_led_cost = 3;  ///< of an LED that a camera should see and does not
   double least_margin = 12;     ///< by which the best beats a rival that is elsewhere

@@ -33,7 +33,8 @@ bool well_seen(const HeadTrack& head, Time now, const AssociationOptions& option
   return leds >= 3 && seen_by_two(head, now, options);
 }
 
-void move_on(HeadTrack& head, Time to, const AssociationOptions& options) {
+void move_on(HeadTrack& head, std::size_t leds_of_head, Time to,
+             const AssociationOptions& options) {
   if (!head.state) return;
   MotionNoise noise = options.fixed_noise.value_or(noise_of_motion(*head.state));
   if (!seen_by_two(head, to, options))
@@ -46,10 +47,14 @@ void move_on(HeadTrack& head, Time to, const AssociationOptions& options) {
   if (!options.turns) noise.turn_rad2_s5 = 0;
   const auto lately = [&](Time seen) { return to - seen < options.coasts_after; };
   const bool moves = seen_by_two(head, to, options);
-  const bool turns = std::ranges::count_if(head.led_seen, lately) >= 2;
+  const auto leds = static_cast<std::size_t>(std::ranges::count_if(head.led_seen, lately));
+  const bool turns = leds >= 2;
+  if (leds >= std::min<std::size_t>(3, leds_of_head)) head.rotation_seen = to;
+  const Duration passed = to - head.state->time;
   propagate(*head.state, std::max(to, head.state->time), noise,
             {.move_damping = moves ? Duration::zero() : options.damping,
              .turn_damping = turns ? Duration::zero() : options.damping});
+  if (options.turns && !well_seen(head, to, options)) expect_facing(*head.state, passed);
   if (to - head.seen > options.lost_after || vague(*head.state, options)) head.state.reset();
 }
 
@@ -200,7 +205,8 @@ bool widen_displaced(const TimedDots& seen, const CameraModel& camera,
 Association associate(const TimedDots& seen, const CameraModel& camera,
                       std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
                       const AssociationOptions& options) {
-  for (HeadTrack& head : heads) move_on(head, seen.captured, options);
+  for (std::size_t head = 0; head < heads.size(); ++head)
+    move_on(heads[head], leds_of_heads[head].size(), seen.captured, options);
   Association result;
   result.accepted = correct_by(seen, camera, leds_of_heads, heads, options);
   result.widened = options.may_widen && seen.dots.size() >= 2 &&

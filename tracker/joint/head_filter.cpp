@@ -73,6 +73,25 @@ Rigid3 moved(const Rigid3& pose, const Vec3& way, const Vec3& turn) {
   return {(rotation_of(turn) * pose.rotation).normalized(), pose.translation + way};
 }
 
+/// By N numbers that differ by `surprise` from what the state says. `spread`: its covariance with
+/// them; `expected`: theirs, with their noise. Joseph's form is not needed: the covariance is made
+/// symmetric, and nothing is ever measured exactly.
+template <int N>
+void take_in(HeadState& state, const Eigen::Matrix<double, 18, N>& spread,
+             const Eigen::Matrix<double, N, N>& expected,
+             const Eigen::Matrix<double, N, 1>& surprise) {
+  const Eigen::Matrix<double, 18, N> gain = spread * expected.inverse();
+  const Eigen::Matrix<double, 18, 1> step = gain * surprise;
+  state.covariance.noalias() -= gain * spread.transpose();
+  state.covariance = (0.5 * (state.covariance + state.covariance.transpose())).eval();
+  state.room_from_head = moved(state.room_from_head, step.template segment<3>(kPosition),
+                               step.template segment<3>(kRotation));
+  state.move.velocity += step.template segment<3>(kVelocity);
+  state.move.acceleration += step.template segment<3>(kVelocity + 3);
+  state.turn.velocity += step.template segment<3>(kTurning);
+  state.turn.acceleration += step.template segment<3>(kTurning + 3);
+}
+
 }  // namespace
 
 // Found by trial on simulated heads: at rest, and swaying with peaks of 0.57 m/s and 1.13 m/s. What
@@ -128,7 +147,6 @@ std::optional<ExpectedDot> expect_dot(const HeadState& state, const CameraModel&
   return expected;
 }
 
-// Joseph's form is not needed: the covariance is made symmetric, and dots are never exact.
 void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
              const Eigen::Matrix2d& noise_px2) {
   const auto& by_position = expected.d_raw_d_pose.leftCols<3>();
@@ -136,17 +154,18 @@ void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
   const Eigen::Matrix<double, 18, 2> spread =
       state.covariance.middleCols<3>(kPosition) * by_position.transpose() +
       state.covariance.middleCols<3>(kRotation) * by_rotation.transpose();
-  const Eigen::Matrix2d inverse = (expected.covariance_px2 + noise_px2).inverse();
-  const Eigen::Matrix<double, 18, 2> gain = spread * inverse;
-  const Eigen::Matrix<double, 18, 1> step = gain * (raw_px - expected.raw_px);
-  state.covariance.noalias() -= gain * spread.transpose();
-  state.covariance = (0.5 * (state.covariance + state.covariance.transpose())).eval();
-  state.room_from_head =
-      moved(state.room_from_head, step.segment<3>(kPosition), step.segment<3>(kRotation));
-  state.move.velocity += step.segment<3>(kVelocity);
-  state.move.acceleration += step.segment<3>(kVelocity + 3);
-  state.turn.velocity += step.segment<3>(kTurning);
-  state.turn.acceleration += step.segment<3>(kTurning + 3);
+  take_in<2>(state, spread, expected.covariance_px2 + noise_px2, raw_px - expected.raw_px);
+}
+
+// The prior as a measurement of the rotation alone. One that is independent of the last comes each
+// kAnew; in between there is the part of one that goes with the time.
+void expect_facing(HeadState& state, Duration passed) {
+  constexpr Duration kAnew = std::chrono::milliseconds(300);
+  if (passed <= Duration::zero()) return;
+  const Eigen::Matrix<double, 18, 3> spread = state.covariance.middleCols<3>(kRotation);
+  const Mat3 noise = (kFacingSigma_rad.cwiseAbs2() * (1.0 * kAnew / passed)).asDiagonal();
+  take_in<3>(state, spread, spread.middleRows<3>(kRotation) + noise,
+             -vector_of(state.room_from_head.rotation));
 }
 
 void widen(HeadState& state, bool motion_too) {

@@ -64,6 +64,10 @@ std::optional<ExpectedDot> expect_dot(const HeadState& state, const CameraModel&
 void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
              const Eigen::Matrix2d& noise_px2);
 
+/// Takes in, after so long a time, that heads are held as kFacingSigma_rad says: what dots leave
+/// open of the rotation is drawn there, slowly; what they fix hardly moves.
+void expect_facing(HeadState& state, Duration passed);
+
 /// For a head that is found not to be where it should, or set off unforeseen: centimetres and
 /// degrees of doubt, and of its motion where that is asked for.
 void widen(HeadState& state, bool motion_too);

@@ -23,6 +23,7 @@ constexpr Duration kCheck = std::chrono::seconds(2);  // and of one that explain
 constexpr Duration kLevelWindow = Milliseconds(35);   // that the level is judged by
 constexpr Duration kHeld = Milliseconds(250);
 constexpr Duration kLost = std::chrono::seconds(2);
+constexpr Duration kRemembered = std::chrono::seconds(1);  // a rotation, to place the eye by
 constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
 
 /// The fewer dots agree, the more often they must.
@@ -324,7 +325,10 @@ TrackingLevel JointMethod::level_now(std::size_t head) const {
                      (entry->seen.dot_sigma_px * entry->seen.dot_sigma_px);
     }
   }
-  return std::min(level_of(information), TrackingLevel::bearing);
+  const TrackingLevel level = std::min(level_of(information), TrackingLevel::bearing);
+  const Duration remembered = entries_.back().seen.captured - newest_heads()[head].rotation_seen;
+  return level > TrackingLevel::six_dof && remembered > kRemembered ? TrackingLevel::bearing
+                                                                    : level;
 }
 
 std::optional<PoseSample> JointMethod::pose(std::size_t head, Time photon) const {

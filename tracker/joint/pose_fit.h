@@ -36,6 +36,9 @@ struct PosePrior {
   Mat6 information = Mat6::Zero();  ///< inverse covariance; position, rotation; both in room
 };
 
+/// How heads are held by and large: upright, facing the wall. Of pitch, yaw and roll in room.
+inline const Vec3 kFacingSigma_rad = {radians(25), radians(50), radians(20)};
+
 struct PoseFitOptions {
   double huber_sigmas = 2;  ///< residuals beyond count linearly (Huber 1964)
   int max_iterations = 20;

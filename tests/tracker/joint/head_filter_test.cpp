@@ -8,6 +8,7 @@
 #include "scene.h"
 #include "tracker/joint/association.h"
 #include "tracker/joint/camera_watch.h"
+#include "tracker/joint/rotation.h"
 #include "tracker/joint/static_dots.h"
 
 namespace vindu {
@@ -48,6 +49,21 @@ TEST(HeadFilter, grows_its_covariance_alike_in_one_step_and_in_many) {
   propagate(one, Time{} + milliseconds(64), {});
   for (int i = 1; i <= 64; ++i) propagate(many, Time{} + milliseconds(i), {});
   EXPECT_LT((one.covariance - many.covariance).norm(), 0.01 * one.covariance.norm());
+}
+
+TEST(HeadFilter, draws_an_open_rotation_to_facing_the_wall_and_leaves_a_known_one) {
+  const Quat aside(Eigen::AngleAxisd(radians(70), Vec3::UnitY()));
+  const auto turned_after = [&](double sigma_rad, Duration waited) {
+    HeadState state = known_at({aside, {0, 1.6, 2}}, Time{});
+    state.covariance.diagonal().segment<3>(9).setConstant(sigma_rad * sigma_rad);
+    for (int i = 0; i < waited / milliseconds(10); ++i) expect_facing(state, milliseconds(10));
+    EXPECT_LT((state.room_from_head.translation - Vec3(0, 1.6, 2)).norm(), 1e-12);
+    return vector_of(state.room_from_head.rotation).y();
+  };
+  EXPECT_GT(turned_after(radians(1), seconds(1)), radians(69.8));
+  // Of the 3.3 looks of a second, each with a sigma of 50 degrees, and a memory with one of 40.
+  EXPECT_NEAR(turned_after(radians(40), seconds(1)), radians(70 / (1 + 1 / 0.3 * 0.64)),
+              radians(1));
 }
 
 TEST(HeadFilter, expects_a_dot_as_uncertain_as_it_really_is) {

@@ -180,6 +180,18 @@ TEST_F(JointMethodTest, names_the_one_of_three_cameras_that_was_bumped) {
   EXPECT_LT(error_m(method, 0, Time{milliseconds(8990)}, walking(8.99)), 0.02);
 }
 
+TEST_F(JointMethodTest, places_the_eye_by_a_remembered_rotation_for_a_second) {
+  JointMethod method(configs_, heads_);
+  const auto stands = [](double) { return std::vector{walking(0)}; };
+  feed(method, 0, 2, stands);
+  heads_[0].leds_in_head = {kThreeLeds[0]};  // both cameras see this one alone
+  feed(method, 2, 2.9, stands);
+  EXPECT_EQ(method.pose(0, Time{milliseconds(2890)})->level, TrackingLevel::position);
+  EXPECT_LT(error_m(method, 0, Time{milliseconds(2890)}, walking(0)), 0.03);
+  feed(method, 2.9, 3.2, stands);
+  EXPECT_EQ(method.pose(0, Time{milliseconds(3190)})->level, TrackingLevel::bearing);
+}
+
 TEST_F(JointMethodTest, in_position_mode_needs_one_led_in_two_cameras) {
   JointMethod method(configs_, heads_, {.position_only = true});
   heads_[0].leds_in_head = {{0, 0, 0}};
