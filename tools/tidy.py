@@ -20,8 +20,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
-MOST = 8  # sources that are looked at as one
+MOST = 12  # sources that are looked at as one; CMAKE_UNITY_BUILD_BATCH_SIZE of tools/common.sh
 FOLDERS = ("core", "tracker", "cluster", "renderer", "simulator", "app", "bench", "tests")
+# The static analyzer follows every path through GoogleTest's macros: minutes for nothing.
+UNANALYSED = ("bench", "tests")
 
 
 def texts_behind(root, source):
@@ -64,7 +66,7 @@ def configure(root):
 
 
 def sources_to_check(root, patterns):
-    """(source, compile command) of each that stands in the database, once."""
+    """(source, compile command) of each that stands in the database, once, in its order."""
     database = json.loads((root / "build/tidy/compile_commands.json").read_text())
     found = {}
     for entry in database:
@@ -75,7 +77,7 @@ def sources_to_check(root, patterns):
         wanted = not patterns or any(re.search(p, source.as_posix()) for p in patterns)
         if source.parts[0] in FOLDERS and wanted:
             found.setdefault(source, entry["command"])
-    return sorted(found.items())
+    return list(found.items())
 
 
 def flags_of(command):
@@ -93,13 +95,20 @@ def flags_of(command):
     return flags
 
 
+def target_of(command):
+    """"tests/core/CMakeFiles/core_test.dir" of what is compiled for it."""
+    return re.search(r"-o (\S*\.dir)/", command)[1]
+
+
 def batches_of(waiting):
-    """Sources of one folder that are compiled alike, up to MOST of them each."""
+    """Sources of one target that are compiled alike, up to MOST of them each: as the build joins
+    them, so that names do not clash."""
     alike = {}
     for source, command in waiting:
-        alike.setdefault((source.parent, tuple(flags_of(command))), []).append(source)
+        key = (target_of(command), source.parts[0] in UNANALYSED, tuple(flags_of(command)))
+        alike.setdefault(key, []).append(source)
     return [(sources[i:i + MOST], flags)
-            for (_, flags), sources in alike.items() for i in range(0, len(sources), MOST)]
+            for (*_, flags), sources in alike.items() for i in range(0, len(sources), MOST)]
 
 
 def joined(root, sources):
@@ -123,8 +132,7 @@ def findings_in(root, sources, flags, file):
     one, since most of the time goes into the headers; where names of theirs clash, halved."""
     text, places = joined(root, sources)
     file.write_text(text, encoding="utf-8")
-    # Its static analyzer follows every path through GoogleTest's macros: minutes for nothing.
-    checks = ["--checks=-clang-analyzer-*"] if sources[0].parts[0] in ("tests", "bench") else []
+    checks = ["--checks=-clang-analyzer-*"] if sources[0].parts[0] in UNANALYSED else []
     result = subprocess.run(["clang-tidy", "-quiet", *checks, str(file), "--", *flags],
                             capture_output=True, text=True, cwd=root / "build/tidy")
     if result.returncode == 0:
