@@ -123,14 +123,17 @@ class Tidy(Planted):
         self.assertEqual(len(tidy.texts_behind(self.root, Path("core/a.cpp"))), 3)
 
 
-    def test_sources_that_are_compiled_alike_in_one_folder_are_looked_at_together(self):
-        alike = "c++ -I/x -O2 -MD -MT {0}.o -MF {0}.d -o {0}.o -c {0}"
-        waiting = [(Path(name), alike.format(name)) for name in ("a/1.cpp", "a/2.cpp", "b/1.cpp")]
-        waiting.append((Path("a/3.cpp"), "c++ -DY -O2 -o 3.o -c a/3.cpp"))
+    def test_sources_of_one_target_that_are_compiled_alike_are_looked_at_together(self):
+        def command(source, target, more=""):
+            output = f"a/CMakeFiles/{target}.dir/{source}.o"
+            return f"c++ -I/x{more} -MD -MT {output} -MF {output}.d -o {output} -c {source}"
+        waiting = [(Path(source), command(source, *of)) for source, *of in (
+            ("a/1.cpp", "one"), ("a/2.cpp", "one"), ("a/3.cpp", "other"), ("b/4.cpp", "one"),
+            ("a/5.cpp", "one", " -DY"))]
         self.assertEqual(tidy.batches_of(waiting),
-                         [([Path("a/1.cpp"), Path("a/2.cpp")], ("-I/x", "-O2")),
-                          ([Path("b/1.cpp")], ("-I/x", "-O2")),
-                          ([Path("a/3.cpp")], ("-DY", "-O2"))])
+                         [([Path("a/1.cpp"), Path("a/2.cpp"), Path("b/4.cpp")], ("-I/x",)),
+                          ([Path("a/3.cpp")], ("-I/x",)),
+                          ([Path("a/5.cpp")], ("-I/x", "-DY"))])
 
     def test_a_line_of_joined_sources_is_a_line_of_one_of_them(self):
         self.write("core/a.cpp", "#include <a>\nint a();")

@@ -86,7 +86,7 @@ std::optional<std::vector<std::size_t>> label_grid(const std::vector<Vec2>& dots
       most_up = upwards.normalized().dot(up_in_image);
       best = labels;
     }
-    std::ranges::rotate(*corners, corners->begin() + 1);
+    std::rotate(corners->begin(), corners->begin() + 1, corners->end());
   }
   return best;
 }
