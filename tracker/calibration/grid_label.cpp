@@ -73,7 +73,8 @@ std::vector<Vec3> Grid::leds_in_rig() const {
 
 std::optional<std::vector<std::size_t>> label_grid(const std::vector<Vec2>& dots_px,
                                                    const Grid& grid, const Vec2& up_in_image) {
-  if (dots_px.size() != static_cast<std::size_t>(grid.columns * grid.rows)) return std::nullopt;
+  const int dots = grid.columns * grid.rows;
+  if (std::ssize(dots_px) != dots) return std::nullopt;
   auto corners = outer_corners(dots_px);
   if (!corners) return std::nullopt;
   std::optional<std::vector<std::size_t>> best;

@@ -45,7 +45,7 @@ std::vector<Vec2> dots_at(const CameraTrack& track, double t_s, std::size_t coun
     const auto next = std::ranges::min_element(
         after->dots_px, {}, [&](const Vec2& other) { return (other - dot).norm(); });
     if ((*next - dot).norm() > 30) return {};
-    dots.push_back((1 - share) * dot + share * *next);
+    dots.emplace_back((1 - share) * dot + share * *next);
   }
   return dots;
 }
@@ -285,7 +285,7 @@ HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig
   const Vec3 rear = *std::ranges::max_element(in_wall, {}, [](const Vec3& led) { return led.z(); });
   result.head = head;
   result.head.leds_in_head.clear();
-  for (const Vec3& led : in_wall) result.head.leds_in_head.push_back(led - rear);
+  for (const Vec3& led : in_wall) result.head.leds_in_head.emplace_back(led - rear);
   if (options.eye_in_room)
     result.head.eye_in_head = inverse(room_from_wall) * *options.eye_in_room - rear;
   std::vector<double> misfits_m;

@@ -85,8 +85,9 @@ void Coverage::add(const Vec2& image_px, double width_px, double height_px) {
   const auto cell = [](double share, int cells) {
     return std::clamp(static_cast<int>(share * cells), 0, cells - 1);
   };
-  ++dots[static_cast<std::size_t>(cell(image_px.y() / height_px, kRows) * kColumns +
-                                  cell(image_px.x() / width_px, kColumns))];
+  const int row = cell(image_px.y() / height_px, kRows),
+            column = cell(image_px.x() / width_px, kColumns);
+  ++dots[static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)];
 }
 
 double Coverage::share() const {
