@@ -14,11 +14,11 @@ struct EyeEaseOptions {
   Duration held_for = std::chrono::seconds(2);
   Duration to_default_within = std::chrono::milliseconds(1500);  ///< longer where that is too fast
   double to_default_m_s = 1;
-  double catch_up_m_s = 0.5;  ///< how fast the shown eye closes on a tracked one, beside its motion
+  double catch_up_m_s = 0.7;  ///< how fast the shown eye closes on a tracked one, beside its motion
   /// A step that differs by more from what the step before lets expect was no motion of the eye:
   /// so much, and so much for each second of the step.
   double leap_m = 0.004;
-  double leap_m_s = 0.25;
+  double leap_m_s = 0.15;
   double acceleration_m_s2 = 10;  ///< of people's heads, at most
 };
 

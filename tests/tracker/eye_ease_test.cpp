@@ -62,10 +62,10 @@ TEST(EyeEase, never_jumps) {
 
 TEST(EyeEase, is_over_a_short_gap_within_a_few_frames) {
   Show show;
-  show.run(kViewer, std::chrono::seconds(3));
+  show.run(kViewer, std::chrono::seconds(2));
   show.run(std::nullopt, 2 * kFrame);
   const Vec3 moved = kViewer + Vec3(0.02, 0, 0);
-  EXPECT_EQ(show.run(moved, 5 * kFrame), moved);
+  EXPECT_EQ(show.run(moved, 4 * kFrame), moved);
 }
 
 TEST(EyeEase, follows_a_correction_of_the_tracker_softly_and_to_its_end) {
