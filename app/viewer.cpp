@@ -201,7 +201,7 @@ void Viewer::save(Image picture) {
   saving_.start([picture = std::move(picture), folder = options_.out,
                  model = shown_->model](const std::stop_token&) {
     make_folder(folder);
-    const std::filesystem::path file = next_picture(folder, model);
+    std::filesystem::path file = next_picture(folder, model);
     write_png(picture, file.string());
     return file;
   });
