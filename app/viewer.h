@@ -15,6 +15,7 @@
 #include "app/emulation.h"
 #include "app/stage.h"
 #include "app/window_statistics.h"
+#include "core/error.h"
 #include "core/frame_state.h"
 #include "renderer/pattern.h"
 #include "renderer/scene_preparation.h"
@@ -46,6 +47,7 @@ struct ViewOptions {
 /// several tiles.
 Site screen_site(const ViewOptions& options, const ScreenReport& screen);
 
+/// The pose of the stage's clip at that time, if it has one, put on the scene's nodes.
 void pose_on(const Stage& stage, double animation_time_s, GpuScene& scene);
 
 /// Fitted to the content of a window. `model` may be another one than the options', whose clip it
@@ -131,17 +133,17 @@ class Viewer {
   WindowStatistics statistics_;
   ShadowMap shadow_;
   std::optional<Shown> shown_;
-  int models_ = 0;  // that have been shown
   Showing showing_;
   Caption caption_;
   std::string model_;  // that is being read, or was read last
   std::optional<std::string> dropped_;
   Background<LoadedScene> reading_;
   std::optional<Coming> coming_;
-  bool picture_wanted_ = false;
   Background<std::filesystem::path> saving_;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<Picture> picture_;
+  int models_ = 0;  // that have been shown
+  bool picture_wanted_ = false;
 };
 
 }  // namespace vindu::app
