@@ -1,9 +1,10 @@
-// The options of every command that may use emulated Wiimotes: what their radio link is like, and
-// whether Linux' own driver is at work beside ours.
+// The options of every command that may use emulated Wiimotes: what their radio link is like,
+// whether Linux' own driver is at work beside ours, and which buttons are pressed.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "simulator/emulated_room.h"
 
@@ -12,14 +13,16 @@ namespace vindu::app {
 struct EmulationOptions {
   std::string link = "good";
   bool kernel = false;
+  std::vector<std::string> presses;
 };
 
-/// --link good|busy|bad and --kernel; both without effect on real devices.
+/// --link good|busy|bad, --kernel, --press BUTTON@SECONDS; without effect on real devices.
 void add_emulation(CLI::App& app, EmulationOptions& options);
 
 /// A room in which a person walks from now on; person and devices are of that seed.
 EmulatedRoomOptions walking_room(const EmulationOptions& options, std::uint64_t seed, Time now);
 
-void apply(const EmulationOptions& options, EmulatedWiimoteOptions& wiimote);
+/// Presses count from `now` on.
+void apply(const EmulationOptions& options, Time now, EmulatedRoomOptions& room);
 
 }  // namespace vindu::app

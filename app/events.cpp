@@ -33,6 +33,9 @@ std::string line_of(const EventMessage& event, Duration since_start) {
   if (event.kind == EventKind::touch)
     return line + fmt::format(" {} {} at {:.0f}, {:.0f} px", event.id, name_of(event.phase),
                               event.x_px, event.y_px);
+  if (event.kind == EventKind::key)
+    return line +
+           fmt::format(" {} {}", event.text, event.phase == EventPhase::end ? "let go" : "pressed");
   return line + fmt::format(" of {}: {} ({:.0f} %)", event.id, event.text, 100 * event.value);
 }
 
@@ -59,14 +62,16 @@ int events(const EventsCommand& command) {
 void add_events(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<EventsCommand>();
   CLI::App* app = parent.add_subcommand(
-      "events", "What devices and people tell a running wall: touches, gestures, picks by looking");
+      "events",
+      "What devices and people tell a running wall: touches, gestures, picks by looking, buttons");
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
   app->add_flag("--json", command->json, "A line of JSON for each, for other programs");
   app->add_option("--seconds", command->seconds, "Length (default: until it is stopped)")
       ->check(between(0.05, 1e8));
   app->footer(
-      "\nGestures come from vindu track --publish, touches from vindu touch.\n"
+      "\nGestures, picks and the buttons of Wiimotes come from whoever tracks: the master, or\n"
+      "vindu track --publish; touches from vindu touch.\n"
       "\nExamples:\n"
       "  vindu events --wall wall.toml\n"
       "  vindu events --json | while read -r event; do echo \"$event\"; done\n");

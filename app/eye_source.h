@@ -2,6 +2,7 @@
 // or a window's pointer. Asked once a frame, for all tiles. All are bound to the render thread.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,8 +39,9 @@ class EyeSource {
 };
 
 struct TrackedEyeOptions {
-  TrackingConfig tracking;
   CamerasOptions cameras;
+  /// Called after each frame; may be empty.
+  std::function<void(const Tracker&)> on_frame;
 };
 
 /// The eye of the person whom the site's cameras see.
@@ -57,6 +59,7 @@ class TrackedEye final : public EyeSource {
   Tracker tracker_;
   EyeEase ease_;
   Cameras cameras_;
+  std::function<void(const Tracker&)> on_frame_;
 };
 
 /// The path begins with the first frame.

@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/tracker_events.h"
 #include "cluster/launch/words.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -22,6 +23,7 @@ struct LaunchCommand {
   std::string model;
   std::string wall_file;
   std::vector<std::string> master_options, tile_options;  // as they were given
+  std::vector<std::string> targets;
   int tiles_per_process = 1;
   bool headless = false;
   bool json = false;
@@ -34,14 +36,21 @@ bool has_display() {
   return (x && *x) || (wayland && *wayland);
 }
 
+std::vector<std::string> master_arguments(const LaunchCommand& command) {
+  std::vector<std::string> arguments = command.master_options;
+  for (const std::string& target : command.targets)
+    arguments.insert(arguments.end(), {"--target", target});
+  if (command.json) arguments.emplace_back("--json");
+  return arguments;
+}
+
 LaunchRequest request_of(const LaunchCommand& command) {
   LaunchRequest request{
       .program = std::filesystem::read_symlink("/proc/self/exe"),
       .wall_file = command.wall_file.empty() ? find_asset("walls/tromso.toml") : command.wall_file,
-      .master_arguments = command.master_options,
+      .master_arguments = master_arguments(command),
       .tile_arguments = command.tile_options};
   if (!command.model.empty()) request.master_arguments.push_back(command.model);
-  if (command.json) request.master_arguments.emplace_back("--json");
   if (command.headless) request.tile_arguments.emplace_back("--headless");
   return request;
 }
@@ -50,12 +59,10 @@ HostRequest host_request_of(const LaunchCommand& command) {
   if (command.tiles_per_process != 1)
     throw Error({"the tiles of a host share one process", "--tiles-per-process",
                  "leave it out where the wall file names the master's host"});
-  HostRequest request{.model = std::filesystem::path(command.model).filename(),
-                      .master_arguments = command.master_options,
-                      .tile_arguments = command.tile_options,
-                      .headless = command.headless};
-  if (command.json) request.master_arguments.emplace_back("--json");
-  return request;
+  return {.model = std::filesystem::path(command.model).filename(),
+          .master_arguments = master_arguments(command),
+          .tile_arguments = command.tile_options,
+          .headless = command.headless};
 }
 
 /// What would run on this machine, a line each.
@@ -99,6 +106,7 @@ void add_handed_on(CLI::App& app, LaunchCommand& command) {
       ->check(CLI::IsMember({"track", "loop", "touch"}));
   hand_on(app, "--pattern", command.master_options, "A test picture; see vindu pattern --help")
       ->check(CLI::IsMember(pattern_names()));
+  add_targets(app, command.targets);
   hand_on(app, "--path", command.master_options, "Camera path of the mode loop")->type_name("FILE");
   hand_on(app, "--seconds", command.master_options, "Length (default: until Ctrl-C)")
       ->check(between(0.05, 1e8));

@@ -15,6 +15,7 @@
 #include "app/still_eye.h"
 #include "app/stop_signals.h"
 #include "app/touch_eye.h"
+#include "app/tracker_events.h"
 #include "app/wall_console.h"
 #include "app/wall_figures.h"
 #include "cluster/console.h"
@@ -40,6 +41,7 @@ struct MasterCommand {
   EmulationOptions emulation;
   bool tracker_elsewhere = false;
   std::string csv_file;
+  std::vector<std::string> targets;
   Pattern pattern = Pattern::none;
   bool overlay = false;
   bool json = false;
@@ -68,6 +70,7 @@ class MasterRun {
                       .tiles = tile_names(site.wall),
                       .barrier = {.lock = site.cluster.lock}}),
         eye_in_wall_(site.viewer.default_eye_in_wall),
+        gestures_(site, targets_from(command.targets)),
         elsewhere_(command.tracker_elsewhere),
         overlays_(command.overlay ? std::uint32_t{kStatistics} : 0),
         pattern_(command.pattern),
@@ -106,8 +109,8 @@ class MasterRun {
  private:
   static constexpr Topics kHears = {Topic::ready, Topic::tile_status, Topic::presence,
                                     Topic::command};
-  static constexpr Topics kTells = {Topic::frame, Topic::scene, Topic::report, Topic::camera,
-                                    Topic::answer};
+  static constexpr Topics kTells = {Topic::frame,  Topic::scene,  Topic::report,
+                                    Topic::camera, Topic::answer, Topic::event};
   static constexpr Topics kJoins = {Topic::ready,   Topic::tile_status, Topic::presence,
                                     Topic::command, Topic::pose,        Topic::event};
 
@@ -134,8 +137,17 @@ class MasterRun {
     if (!site_.cameras.empty() && !elsewhere_)
       own = std::make_unique<TrackedEye>(
           site_, room_, clock_,
-          TrackedEyeOptions{.tracking = site_.tracking, .cameras = {.threads = true, .tap = {}}});
+          TrackedEyeOptions{.cameras = {.threads = true, .tap = {}},
+                            .on_frame = [this](const Tracker& tracker) { tell(tracker); }});
     return std::make_unique<RemoteEye>(*bus_, site_, std::move(own));
+  }
+
+  /// What people do before its own cameras, to all who listen.
+  void tell(const Tracker& tracker) {
+    for (const GestureEvent& event : gestures_.news(tracker))
+      bus_->publish(message_of(event, host_name()));
+    for (const ButtonChange& change : tracker.button_changes())
+      bus_->publish(message_of(change, site_, host_name()));
   }
 
   /// Finds the eye, and begins a frame where one is due.
@@ -331,6 +343,7 @@ class MasterRun {
   WallMaster wall_;
   Vec3 eye_in_wall_;
   TouchEye touch_{*bus_, site_};
+  HeadGestures gestures_;
   std::unique_ptr<EyeSource> path_, tracked_;  // cameras are opened once, by the mode track
   EyeSource* eyes_ = nullptr;
   Staging staging_;
@@ -389,6 +402,7 @@ void add_master(CLI::App& parent, Action& chosen) {
   app->add_flag("--tracker-elsewhere", command->tracker_elsewhere,
                 "Leaves the wall file's cameras to vindu track --publish on another host;\n"
                 "without it they are asked while no such tracker is heard");
+  add_targets(*app, command->targets);
   add_pattern_choice(*app, command->pattern);
   app->add_flag("--overlay", command->overlay, "Tiles show their figures (vindu overlay on)");
   app->add_option("--csv", command->csv_file,

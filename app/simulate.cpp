@@ -125,8 +125,8 @@ std::unique_ptr<EyeSource> make_eyes(Run& run) {
                                                                   : options.path_file));
   auto tracked = std::make_unique<TrackedEye>(
       run.site, *run.room, *run.clock,
-      TrackedEyeOptions{.tracking = run.site.tracking,
-                        .cameras = {.threads = options.clock != "manual", .tap = {}}});
+      TrackedEyeOptions{.cameras = {.threads = options.clock != "manual", .tap = {}},
+                        .on_frame = {}});
   run.tracker = &tracked->tracker();
   run.cameras = &tracked->cameras();
   return tracked;

@@ -77,7 +77,7 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
   return line;
 }
 
-/// Heads that are seen now, on the topic pose, and their gestures. What is held or lost is not
+/// Heads that are seen now, on the topic pose, and what people tell. What is held or lost is not
 /// said: then a weaker tracker is heard.
 class Publisher {
  public:
@@ -98,15 +98,7 @@ class Publisher {
                                   .sent_time = now,
                                   .followed = followed && followed->object == pose.object});
   }
-  /// To keep looking at a thing is to pick it.
-  void publish(const GestureEvent& event) {
-    const bool pick = event.gesture == Gesture::look;
-    bus_->publish(EventMessage{.source = host_name() + "/track",
-                               .kind = pick ? EventKind::pick : EventKind::gesture,
-                               .id = event.object,
-                               .value = event.confidence,
-                               .text = pick ? event.target : std::string(name_of(event.gesture))});
-  }
+  void publish(const EventMessage& event) { bus_->publish(event); }
 
  private:
   DdsTransport transport_;
@@ -168,9 +160,11 @@ int track(const TrackCommand& command) {
     for (const std::string& line : lines.news(tracker, {}))
       if (command.json) std::puts(line.c_str());
     for (const GestureEvent& event : lines.events()) {
-      if (publisher) publisher->publish(event);
+      if (publisher) publisher->publish(message_of(event, host_name()));
       if (!command.json) fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", words_of(event, site));
     }
+    for (const ButtonChange& change : tracker.button_changes())
+      if (publisher) publisher->publish(message_of(change, site, host_name()));
     if (terminal && now - shown > std::chrono::milliseconds(100)) {
       std::fputs(status_line(pose, tracker, cameras, site).c_str(), stderr);
       shown = now;
@@ -190,10 +184,10 @@ void add_track(CLI::App& parent, Action& chosen) {
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
   app->add_flag("--json", command->json,
-                "A line of JSON for each pose, gesture, and change of a camera");
+                "A line of JSON for each pose, gesture, press of a button, and change of a camera");
   app->add_flag("--publish", command->publish,
-                "Poses go to the wall's master, by [cluster] of the wall file, and gestures to\n"
-                "all who listen (vindu events)");
+                "Poses go to the wall's master, by [cluster] of the wall file; gestures and\n"
+                "presses of buttons to all who listen (vindu events)");
   app->add_option("--strength", command->strength,
                   "Of several trackers that publish the stronger is heard (default: 10)")
       ->check(CLI::Range(2, 1000));

@@ -105,7 +105,7 @@ int view(const ViewOptions& options) {
   if (!viewer.load_first()) return 0;
   EmulatedRoomOptions room_options;
   room_options.person = walk_before(viewer.site().wall, clock.now(), options.seed);
-  apply(options.emulation, room_options.wiimote);
+  apply(options.emulation, clock.now(), room_options);
   const EmulatedRoom room(viewer.site(), clock, room_options);
   const auto eyes = choose_eyes(options, *window, viewer.site(), room, clock);
   LoopOptions loop{.rate_hz = viewer.site().rate_hz,

@@ -33,7 +33,7 @@ bool has_open(const fs::path& process, const std::string& path) {
 
 WiimoteBus::WiimoteBus(bool emulated, const EmulationOptions& emulation) {
   EmulatedRoomOptions room;
-  apply(emulation, room.wiimote);
+  apply(emulation, clock_.now(), room);
   if (emulated)
     room_ = std::make_unique<EmulatedRoom>(load_site(""), clock_, room);
   else

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/buttons.h"
 #include "renderer/diagram.h"
 #include "renderer/text.h"
 #include "tracker/wiimote/find.h"
@@ -22,15 +23,6 @@ constexpr Rgba8 kSlotColours[] = {
 constexpr int kPanelWidth = 560, kMargin = 24;
 constexpr int kSensorWidth = kPanelWidth - 2 * kMargin, kSensorHeight = kSensorWidth * 3 / 4;
 constexpr int kPanelHeight = kSensorHeight + 190;
-
-struct ButtonName {
-  Buttons bit;
-  const char* name;
-};
-constexpr ButtonName kButtons[] = {{0x0100, "Left"},  {0x0200, "Right"}, {0x0400, "Down"},
-                                   {0x0800, "Up"},    {0x1000, "Plus"},  {0x0001, "Two"},
-                                   {0x0002, "One"},   {0x0004, "B"},     {0x0008, "A"},
-                                   {0x0010, "Minus"}, {0x0080, "Home"}};
 
 std::string acceleration_text(const WatchedWiimote& wiimote) {
   if (!wiimote.data || !wiimote.data->acceleration_raw) return "";
@@ -114,13 +106,6 @@ void draw_panel(Image& image, int left, const WatchedWiimote& wiimote) {
 }
 
 }  // namespace
-
-std::string text_of(Buttons buttons) {
-  std::string text;
-  for (const ButtonName& button : kButtons)
-    if (buttons & button.bit) text += (text.empty() ? "" : "+") + std::string(button.name);
-  return text.empty() ? "-" : text;
-}
 
 std::string summary_of(const WatchedWiimote& wiimote) {
   return fmt::format("{:.0f} reports/s  {}  buttons {}  {}  gaps: {}", wiimote.reports_per_s,

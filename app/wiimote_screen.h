@@ -18,9 +18,6 @@ struct WatchedWiimote {
   double reports_per_s = 0;
 };
 
-/// "A", "Up+B", or "-".
-std::string text_of(Buttons buttons);
-
 /// One line of counts: rate, battery, buttons, acceleration, gaps by cause.
 std::string summary_of(const WatchedWiimote& wiimote);
 

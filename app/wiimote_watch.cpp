@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <mutex>
 
+#include "app/buttons.h"
 #include "app/common.h"
 #include "app/stop_signals.h"
 #include "app/wiimote.h"

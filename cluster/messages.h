@@ -148,11 +148,11 @@ struct EventMessage {
   std::string source{};  ///< "HOST/DEVICE"
   EventKind kind = EventKind::touch;
   EventPhase phase = EventPhase::begin;
-  int id = 0;       ///< finger, key code; of gestures and picks the head
+  int id = 0;       ///< finger; button, as in wiimote/report.h; of gestures and picks the head
   double x_px = 0;  ///< wall pixels from the upper left
   double y_px = 0;
   double value = 0;    ///< of gestures and picks: how clear it was, 0 to 1
-  std::string text{};  ///< "nod", "shake"; of picks what is looked at
+  std::string text{};  ///< "nod", "shake"; of picks what is looked at; of keys "Home"
 };
 
 enum class Verb { show, mode, go_to, pattern, blank, stop, overlay, clip, capture };

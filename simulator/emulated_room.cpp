@@ -32,6 +32,14 @@ EmulatedDeviceOptions device_options(const EmulatedWiimoteOptions& wiimote, std:
   return options;
 }
 
+void press(const std::vector<ButtonPress>& presses, Time time, SensorView& view) {
+  for (const ButtonPress& press : presses) {
+    if (time < press.from || time >= press.until) continue;
+    view.buttons_1 |= press.buttons_1;
+    view.buttons_2 |= press.buttons_2;
+  }
+}
+
 }  // namespace
 
 EmulatedRoom::EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOptions& options)
@@ -47,8 +55,13 @@ EmulatedRoom::EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOpt
     EmulatedSensor sensor(site.cameras[i], body, options.wiimote.noise_px, seed,
                           options.wiimote.glints, options.wiimote.false_dots);
     const Duration late = i < options.late.size() ? options.late[i] : Duration{};
+    const auto presses = i == 0 ? options.presses : std::vector<ButtonPress>{};
     bus_->add(device_options(options.wiimote, seed, site.cameras[i]),
-              [sensor, late](Time time) mutable { return sensor.view(time - late); });
+              [sensor, late, presses](Time time) mutable {
+                SensorView view = sensor.view(time - late);
+                press(presses, time, view);
+                return view;
+              });
   }
 }
 

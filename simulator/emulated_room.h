@@ -2,6 +2,7 @@
 // for every emulated camera of the site a Wiimote that watches.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,12 +15,21 @@
 
 namespace vindu {
 
+/// Of the first camera's Wiimote; bits as in SensorView.
+struct ButtonPress {
+  std::uint8_t buttons_1 = 0;
+  std::uint8_t buttons_2 = 0;
+  Time from{};
+  Time until{};
+};
+
 struct EmulatedRoomOptions {
   PersonOptions person{};
   std::optional<LedBody> body{};  ///< seen in place of the person's helmet
   /// By camera: how much later than its picture it shows something, besides the link's delay; those
   /// without an entry: not at all.
   std::vector<Duration> late{};
+  std::vector<ButtonPress> presses{};
   EmulatedWiimoteOptions wiimote{};  ///< each device derives its own seed from this one
 };
 

@@ -54,10 +54,20 @@ Tracker::Tracker(std::span<const CameraConfig> cameras, std::span<const HeadConf
 
 void Tracker::absorb(const Observation& observation) {
   ++counts_.reports;
-  std::uint16_t& before = buttons_[static_cast<std::size_t>(observation.camera)];
-  if (observation.buttons & ~before & kHome) hand_over();
-  before = observation.buttons;
+  note_buttons(observation);
   std::visit([&](auto& method) { method.absorb(observation); }, method_);
+}
+
+void Tracker::note_buttons(const Observation& observation) {
+  std::uint16_t& before = buttons_[static_cast<std::size_t>(observation.camera)];
+  for (int bit = 0; bit < 16; ++bit) {
+    const auto button = static_cast<std::uint16_t>(1 << bit);
+    if (!((observation.buttons ^ before) & button)) continue;
+    const bool pressed = observation.buttons & button;
+    coming_changes_.push_back({observation.camera, button, pressed, observation.arrival});
+    if (pressed && button == kHome) hand_over();
+  }
+  before = observation.buttons;
 }
 
 void Tracker::track_by_thesis(Time now) {
@@ -131,6 +141,8 @@ void Tracker::hand_over() {
 }
 
 std::optional<PoseSample> Tracker::track(Time now, Time photon) {
+  button_changes_.swap(coming_changes_);
+  coming_changes_.clear();
   if (std::holds_alternative<ThesisMethod>(method_))
     track_by_thesis(now);
   else

@@ -30,6 +30,14 @@ struct TrackerCounts {
   std::uint64_t frames_lost() const { return frames - frames_tracked(); }
 };
 
+/// A button of a camera was pressed or let go.
+struct ButtonChange {
+  int camera = 0;            ///< index in the site's list of cameras
+  std::uint16_t button = 0;  ///< one bit, as in wiimote/report.h
+  bool pressed = false;
+  Time arrival{};  ///< of the report that said so
+};
+
 /// A pose is held this long after it was captured; then it is lost.
 constexpr Duration kPoseHeldFor = std::chrono::seconds(2);
 
@@ -51,6 +59,9 @@ class Tracker {
   /// All heads that were ever found, as of the last frame.
   const std::vector<PoseSample>& poses() const { return poses_; }
 
+  /// Those that came before the last frame and after the one before it, in order.
+  const std::vector<ButtonChange>& button_changes() const { return button_changes_; }
+
   /// Follows the next head that is tracked, from now on. A press of Home on any Wiimote does so.
   void hand_over();
 
@@ -64,6 +75,7 @@ class Tracker {
   std::span<const TriangulatedPoint> points() const { return points_; }
 
  private:
+  void note_buttons(const Observation& observation);
   void track_all(Time now, Time photon);
   void track_by_thesis(Time now);
   void apply_mode(PoseSample& pose) const;
@@ -73,7 +85,8 @@ class Tracker {
   TrackingConfig config_;
   std::vector<HeadConfig> heads_;
   Rigid3 wall_from_room_;
-  std::vector<std::uint16_t> buttons_;  // by camera, of the last report
+  std::vector<std::uint16_t> buttons_;                         // by camera, of the last report
+  std::vector<ButtonChange> coming_changes_, button_changes_;  // of the next frame, of the last
   std::variant<ThesisMethod, JointMethod> method_;
   std::vector<PoseSample> poses_;
   std::optional<int> following_;

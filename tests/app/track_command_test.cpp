@@ -7,10 +7,13 @@ namespace vindu {
 namespace {
 
 using namespace testing;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ContainsRegex;
 using ::testing::Each;
+using ::testing::Ge;
 using ::testing::HasSubstr;
+using ::testing::Le;
 
 using TrackCommand = AppTest;
 
@@ -77,7 +80,25 @@ TEST_F(TrackCommand, PredictsFromARecordingAsFarAsItIsAskedTo) {
   EXPECT_NE(eye_on(now.back()), eye_on(later.back()));
 }
 
+TEST_F(TrackCommand, TellsPressesOfButtonsFromARecordingAsFromTheDevice) {
+  ASSERT_EQ(vindu({"record", "--seconds", "2", "--press", "up@0.5", "--press", "home@1", "--out",
+                   path("a.vrec")})
+                .exit_code,
+            0);
+  const ProcessResult result = vindu({"replay", path("a.vrec"), "--track"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto told = lines_with(result.out, "\"button\"");
+  ASSERT_EQ(told.size(), 4u) << result.out;
+  EXPECT_THAT(told[0], HasSubstr(R"("camera":"left","button":"Up","pressed":true)"));
+  EXPECT_THAT(told[1], HasSubstr(R"("camera":"left","button":"Up","pressed":false)"));
+  EXPECT_THAT(told[2], HasSubstr(R"("camera":"left","button":"Home","pressed":true)"));
+  EXPECT_THAT(time_ns(told[1]) - time_ns(told[0]), AllOf(Ge(280'000'000), Le(320'000'000)));
+}
+
 TEST_F(TrackCommand, RefusesWhatItCannotDo) {
+  const ProcessResult press = vindu({"track", "--press", "fire@1"});
+  EXPECT_EQ(press.exit_code, 2);
+  EXPECT_THAT(press.err, HasSubstr("buttons are left, right"));
   const ProcessResult target = vindu({"track", "--target", "globe,1,2"});
   EXPECT_EQ(target.exit_code, 2);
   EXPECT_THAT(target.err, HasSubstr("NAME,x,y,z,radius"));

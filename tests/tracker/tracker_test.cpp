@@ -156,6 +156,22 @@ TEST_F(TwoHeads, are_handed_over_by_each_press_of_home) {
   EXPECT_EQ(see_both(tracker, 5, kHome)->object, 1);
 }
 
+TEST_F(TwoHeads, leave_the_buttons_that_were_pressed_and_let_go_in_the_frame_that_follows) {
+  constexpr std::uint16_t kA = 0x0008, kUp = 0x0800;
+  Tracker tracker(cameras_, heads_, room_from_wall_);
+  see_both(tracker, 1, kA);
+  ASSERT_EQ(tracker.button_changes().size(), 1u);
+  EXPECT_EQ(tracker.button_changes()[0].camera, 0);
+  EXPECT_EQ(tracker.button_changes()[0].button, kA);
+  EXPECT_TRUE(tracker.button_changes()[0].pressed);
+  see_both(tracker, 1, kA);
+  EXPECT_TRUE(tracker.button_changes().empty());
+  see_both(tracker, 1, kUp);
+  ASSERT_EQ(tracker.button_changes().size(), 2u);
+  EXPECT_FALSE(tracker.button_changes()[0].pressed);
+  EXPECT_EQ(tracker.button_changes()[1].button, kUp);
+}
+
 TEST_F(TrackerTest, in_a_mode_that_asks_for_more_holds_what_is_less) {
   heads_.front().leds_in_head = {{-0.09, 0, 0}, {0.09, 0, 0}};  // never more than hybrid
   Tracker any(cameras_, heads_, room_from_wall_),

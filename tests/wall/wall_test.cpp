@@ -196,6 +196,23 @@ TEST_F(WallTest, TellsWhoListensWhatAHeadKeepsLookingAt) {
   EXPECT_EQ(listener.end(), 0);
 }
 
+TEST_F(WallTest, TellsWhoListensWhatPeopleDoBeforeTheMastersOwnCameras) {
+  write("wall.toml", bytes_of(wall_file_) + kCameras);
+  Child listener({VINDU_PROGRAM, "events", "--wall", wall_file_}, path("events.log"));
+  std::vector<std::string> more = {"--target", "middle,0,0,0,0.5"};
+  for (int second = 1; second < 60; ++second)
+    more.insert(more.end(), {"--press", "home@" + std::to_string(second)});
+  Child tile = start_tile("tile-0-0");
+  Child master = start_master(more, "track");
+  const auto hears = [&](const std::string& what) {
+    while (bytes_of(path("events.log")).find(what) == std::string::npos)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  };
+  hears("/left  key Home pressed");
+  hears("/left  key Home let go");
+  hears("/track  pick of 0: middle");
+}
+
 TEST_F(WallTest, WritesALineForEachFrameWhosePartsAddUpThoughItIsKilled) {
   std::vector<Child> tiles;
   for (const std::string& tile : all()) tiles.push_back(start_tile(tile));
