@@ -91,9 +91,10 @@ void examine_window(Findings& findings) {
     window->present();
     findings.push_back(graphics_finding("with a window"));
     const ScreenReport screen = window->screen();
-    const std::string text =
-        fmt::format("{}: {} x {} pixels, {} x {} mm", screen.name, screen.size.width,
-                    screen.size.height, screen.width_mm, screen.height_mm);
+    std::string text = fmt::format("{}: {} x {} pixels, {} x {} mm", screen.name, screen.size.width,
+                                   screen.size.height, screen.width_mm, screen.height_mm);
+    if (const std::string names = window->monitor_names(); names != screen.name)
+      text += "; monitors " + names;
     const std::string doubt = doubt_about(screen);
     if (doubt.empty())
       findings.push_back({"display", Health::good, text});

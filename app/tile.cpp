@@ -98,7 +98,10 @@ class TilePainter {
       : part_(part),
         surface_(surface),
         renderer_(part, scale, tile_look(), site.wall),
-        statistics_(site, part) {}
+        statistics_(site, part) {
+    if (const auto* const window = dynamic_cast<const Window*>(&surface))
+      monitors_ = window->monitor_places();
+  }
 
   WallRenderer& renderer() { return renderer_; }
   TileStatistics& statistics() { return statistics_; }
@@ -131,21 +134,57 @@ class TilePainter {
   void present() {
     if (const SizePx size = surface_.size(); size.width > 0 && size.height > 0) {
       glBindFramebuffer(GL_FRAMEBUFFER, 0);
-      glViewport(0, 0, size.width, size.height);
-      const bool one = part_.tiles.size() == 1;
-      renderer_.renderer().present(renderer_.picture(),
-                                   one ? part_.tiles.front().mount : TileMount{});
+      if (monitors_.size() == part_.tiles.size())
+        present_on_monitors();
+      else
+        present_together(size);
     }
     surface_.present();
   }
 
  private:
+  void present_on_monitors() {
+    if (monitors_.size() > 1) glClear(GL_COLOR_BUFFER_BIT);  // monitors need not fill their window
+    for (std::size_t i = 0; i < monitors_.size(); ++i) {
+      const auto& [x, y, size] = monitors_[i];
+      glViewport(x, y, size.width, size.height);
+      renderer_.renderer().present(renderer_.picture(), part_.tiles[i].mount,
+                                   renderer_.layout().tiles[i]);
+    }
+  }
+  /// As they hang beside each other, in a window.
+  void present_together(SizePx size) {
+    glViewport(0, 0, size.width, size.height);
+    const bool one = part_.tiles.size() == 1;
+    renderer_.renderer().present(renderer_.picture(),
+                                 one ? part_.tiles.front().mount : TileMount{});
+  }
+
   Wall part_;
   Surface& surface_;
+  std::vector<RectPx> monitors_;  // of the tiles, in framebuffer 0; empty where it has none
   WallRenderer renderer_;
   GpuTimer timer_;
   TileStatistics statistics_;
 };
+
+/// The monitors that the tiles of this process are to cover; empty where none is named. Throws
+/// Error where only some are, or two share one.
+std::vector<std::string> monitors_of(const Wall& part) {
+  std::vector<std::string> monitors;
+  for (const Tile& tile : part.tiles) {
+    if (tile.monitor.empty()) continue;
+    if (std::ranges::find(monitors, tile.monitor) != monitors.end())
+      throw Error({"shares the monitor " + tile.monitor + " with another tile", tile.name,
+                   "give each tile of a host a monitor of its own in its [[tile]]"});
+    monitors.push_back(tile.monitor);
+  }
+  const auto without = std::ranges::find(part.tiles, std::string(), &Tile::monitor);
+  if (!monitors.empty() && without != part.tiles.end())
+    throw Error({"names no monitor, but other tiles of this process do", without->name,
+                 "give each tile of a host a monitor in its [[tile]]"});
+  return monitors;
+}
 
 std::unique_ptr<Surface> surface_for(const TileCommand& command, const Wall& part) {
   if (command.headless || !has_display()) {
@@ -156,7 +195,8 @@ std::unique_ptr<Surface> surface_for(const TileCommand& command, const Wall& par
   const WallLayout layout = layout_of(part, command.scale.value_or(1));
   return make_window({.size = layout.size,
                       .title = part.tiles.front().name,
-                      .fullscreen = part.tiles.size() == 1 && !command.scale});
+                      .fullscreen = part.tiles.size() == 1 && !command.scale,
+                      .monitors = command.scale ? std::vector<std::string>{} : monitors_of(part)});
 }
 
 /// What a step of bringing a scene to the GPU may take.

@@ -1,5 +1,7 @@
 #include "core/camera_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -61,7 +63,10 @@ CameraPath read_camera_path(const std::string& file) {
     table.require("eye_m", "[0, 0.1, 2]");
     const std::optional<double> t_s = table.number("t_s", {0, 1e6});
     if (t_s && (keys.empty() ? *t_s != 0 : *t_s <= keys.back().t_s))
-      table.fail("t_s", "is out of order; the first key is at 0, every other one after the last");
+      table.fail("t_s", keys.empty() ? fmt::format("is {}; 0 is allowed, for the first key", *t_s)
+                                     : fmt::format("is {}; more than {}, that of the key before, "
+                                                   "is allowed",
+                                                   *t_s, keys.back().t_s));
     keys.push_back({t_s.value_or(0), table.vec3("eye_m").value_or(Vec3::Zero())});
     table.finish();
   }

@@ -1,5 +1,7 @@
 #include "core/site.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -28,6 +30,14 @@ TileMount read_mount(TomlTable& table, TileMount mount) {
   return mount;
 }
 
+/// Pictures must be left between them.
+void check_bezels(TomlTable& table, const std::string& field, double bezel_mm, int count,
+                  double size_mm) {
+  if (count > 0 && bezel_mm * count >= size_mm)
+    table.fail(field, fmt::format("is {}; less than {:.1f} is allowed, {:.0f} mm for {} bezels",
+                                  bezel_mm, size_mm / count, size_mm, count));
+}
+
 WallGrid read_grid(TomlTable& table) {
   for (const char* name : {"columns", "rows"}) table.require(name, "4");
   for (const char* name : {"width_m", "height_m"}) table.require(name, "2.238");
@@ -42,27 +52,33 @@ WallGrid read_grid(TomlTable& table) {
   grid.bezel_x_mm = table.number("bezel_x_mm", {0, 1000}).value_or(0);
   grid.bezel_y_mm = table.number("bezel_y_mm", {0, 1000}).value_or(0);
   grid.curve_deg = table.number("curve_deg", {0, 180}).value_or(0);
-  if (grid.curve_deg > 90 * (grid.columns - 1) && grid.columns > 1)
-    table.fail("curve_deg", "turns neighbouring columns by more than 90 degrees; bend it less");
+  if (const int most_deg = 90 * (grid.columns - 1); grid.curve_deg > most_deg && most_deg > 0)
+    table.fail("curve_deg", fmt::format("is {}; from 0 to {} is allowed for {} columns, 90 degrees "
+                                        "from each to the next",
+                                        grid.curve_deg, most_deg, grid.columns));
   grid.hosts = table.text("hosts").value_or(grid.hosts);
   grid.mount = read_mount(table, {});
-  if (1e-3 * grid.bezel_x_mm * (grid.columns - 1) >= grid.width_m)
-    table.fail("bezel_x_mm", "leaves no width for the pictures; make it smaller than the wall");
-  if (1e-3 * grid.bezel_y_mm * (grid.rows - 1) >= grid.height_m)
-    table.fail("bezel_y_mm", "leaves no height for the pictures; make it smaller than the wall");
+  check_bezels(table, "bezel_x_mm", grid.bezel_x_mm, grid.columns - 1, 1e3 * grid.width_m);
+  check_bezels(table, "bezel_y_mm", grid.bezel_y_mm, grid.rows - 1, 1e3 * grid.height_m);
   return grid;
 }
 
 /// Corners must span a screen: edges of some length, within 2 degrees of a right angle.
 void check_corners(TomlTable& table, const TileCorners& corners) {
   if (corners.width_m() < 1e-3 || corners.height_m() < 1e-3)
-    return table.fail("lower_left_m", "the three corners enclose no area; measure them again");
+    return table.fail("lower_left_m",
+                      fmt::format("the edges are {:.4f} and {:.4f} m long; at least 0.001 m is "
+                                  "allowed; measure the corners again",
+                                  corners.width_m(), corners.height_m()));
   const Vec3 right = (corners.lower_right_in_wall - corners.lower_left_in_wall).normalized();
   const Vec3 up = (corners.upper_left_in_wall - corners.lower_left_in_wall).normalized();
-  if (std::abs(right.dot(up)) > std::sin(radians(2)))
+  const double angle_deg = degrees(std::acos(std::clamp(right.dot(up), -1.0, 1.0)));
+  if (std::abs(angle_deg - 90) > 2)
     table.fail(
         "lower_left_m",
-        "the edges do not meet at a right angle within 2 degrees; measure the corners again");
+        fmt::format("the edges meet at {:.1f} degrees; from 88 to 92 is allowed; measure the "
+                    "corners again",
+                    angle_deg));
 }
 
 std::optional<TileCorners> read_corners(TomlTable& table) {
@@ -94,6 +110,7 @@ std::vector<TileOverride> read_overrides(TomlTable& root, const WallGrid& grid) 
       table.fail("name",
                  "\"" + change.name + "\" is described twice; put its fields into one [[tile]]");
     change.host = table.text("host");
+    change.monitor = table.text("monitor");
     change.corners = read_corners(table);
     change.mount = read_mount(table, grid.mount);
     table.finish();
@@ -284,7 +301,8 @@ Rigid3 read_camera_pose(TomlTable& table) {
     return {};
   }
   if ((*target - position).norm() < 1e-3)
-    table.fail("look_at_m", "is where the camera stands; look somewhere else");
+    table.fail("look_at_m", fmt::format("is {:.4f} m from position_m; at least 0.001 m is allowed",
+                                        (*target - position).norm()));
   return look_at(position, *target);
 }
 

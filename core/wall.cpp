@@ -63,6 +63,14 @@ Vec3 TileCorners::normal_in_wall() const {
       .normalized();
 }
 
+Rigid3 TileCorners::wall_from_screen() const {
+  Mat3 axes;
+  axes.col(0) = (lower_right_in_wall - lower_left_in_wall).normalized();
+  axes.col(2) = normal_in_wall();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return Rigid3::from(axes, centre_in_wall());
+}
+
 const Tile* Wall::find(std::string_view name) const {
   const auto found = std::ranges::find(tiles, name, &Tile::name);
   return found == tiles.end() ? nullptr : &*found;
@@ -106,6 +114,7 @@ Wall expand_wall(const WallGrid& grid, const std::vector<TileOverride>& override
     if (tile == wall.tiles.end()) continue;
     if (change.corners) tile->corners = *change.corners;
     if (change.host) tile->host = *change.host;
+    if (change.monitor) tile->monitor = *change.monitor;
     if (change.mount) tile->mount = *change.mount;
   }
   return wall;

@@ -24,6 +24,8 @@ struct TileCorners {
   Vec3 centre_in_wall() const { return 0.5 * (lower_right_in_wall + upper_left_in_wall); }
   /// Unit vector out of the screen, towards the viewer.
   Vec3 normal_in_wall() const;
+  /// The picture's own frame: origin at its centre, +x along its rows, +z towards the viewer.
+  Rigid3 wall_from_screen() const;
   double width_m() const { return (lower_right_in_wall - lower_left_in_wall).norm(); }
   double height_m() const { return (upper_left_in_wall - lower_left_in_wall).norm(); }
 };
@@ -42,6 +44,7 @@ struct Tile {
   int row = 0;     ///< from the bottom
   std::string name;
   std::string host;
+  std::string monitor{};  ///< of its host, by the output's name ("HDMI-1"); empty: the primary one
   int width_px = 0;
   int height_px = 0;
   TileCorners corners;
@@ -72,6 +75,7 @@ struct TileOverride {
   std::string name;
   std::optional<TileCorners> corners;
   std::optional<std::string> host;
+  std::optional<std::string> monitor{};
   std::optional<TileMount> mount;
 };
 

@@ -44,7 +44,7 @@ void draw_lower_left(Diagram& page, SizePx size) {
 }
 
 std::array<std::string, 4> lines_of(const Tile& tile) {
-  return {"host " + tile.host,
+  return {"host " + tile.host + (tile.monitor.empty() ? "" : ", " + tile.monitor),
           fmt::format("{} x {} px, {:.3f} x {:.3f} m", tile.width_px, tile.height_px,
                       tile.corners.width_m(), tile.corners.height_m()),
           fmt::format("column {} from the left, row {} from the bottom", tile.column, tile.row),

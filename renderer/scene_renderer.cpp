@@ -119,12 +119,26 @@ void SceneRenderer::draw_background(const View& view) const {
 }
 
 void SceneRenderer::present(const Picture& picture, const TileMount& mount) const {
+  present(picture, mount, {0, 0, picture.size()});
+}
+
+void SceneRenderer::present(const Picture& picture, const TileMount& mount,
+                            const RectPx& part) const {
   present_program_.use();
-  present_program_.set("picture_from_display", gl::mat3_from(picture_from_display(mount)));
+  present_program_.set("picture_from_display", gl::mat3_from(whole_from_part(part, picture.size()) *
+                                                             picture_from_display(mount)));
   glBindTextureUnit(0, picture.texture());
   glBindVertexArray(no_vertices_.name());
   (style() == Style::lit ? glEnable : glDisable)(GL_FRAMEBUFFER_SRGB);
   glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Mat3 whole_from_part(const RectPx& part, SizePx whole) {
+  const Vec2 scale(1.0 * part.size.width / whole.width, 1.0 * part.size.height / whole.height);
+  Mat3 matrix = Vec3(scale.x(), scale.y(), 1).asDiagonal();
+  matrix(0, 2) = 2.0 * part.x / whole.width + scale.x() - 1;
+  matrix(1, 2) = 2.0 * part.y / whole.height + scale.y() - 1;
+  return matrix;
 }
 
 Mat3 picture_from_display(const TileMount& mount) {

@@ -40,6 +40,7 @@ class SceneRenderer {
 
   /// A picture into the part of the bound framebuffer that the viewport names.
   void present(const Picture& picture, const TileMount& mount) const;
+  void present(const Picture& picture, const TileMount& mount, const RectPx& part) const;
 
  private:
   /// What the batches of a pass have in common.
@@ -64,5 +65,7 @@ class SceneRenderer {
 
 /// picture = matrix * (x, y, 1) for the display's x, y from -1 to 1.
 Mat3 picture_from_display(const TileMount& mount);
+/// The same of a part of a picture: whole = matrix * (x, y, 1) for the part's x, y from -1 to 1.
+Mat3 whole_from_part(const RectPx& part, SizePx whole);
 
 }  // namespace vindu

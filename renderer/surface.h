@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/clock.h"
 #include "core/rigid3.h"
@@ -58,7 +59,8 @@ bool draws_in_software();
 struct WindowOptions {
   SizePx size = {1280, 720};
   std::string title = "Vindu";
-  bool fullscreen = false;
+  bool fullscreen = false;              ///< covers the primary monitor
+  std::vector<std::string> monitors{};  ///< covers these instead, by their outputs' names
 };
 
 /// What a screen says of itself; millimetres may be invented (Xvfb) or zero (projectors).
@@ -76,6 +78,10 @@ enum class WindowKey { f1, f12 };
 
 class Window : public Surface {
  public:
+  /// Of the monitors that it was asked to cover, in that order: where they are in framebuffer 0.
+  virtual std::vector<RectPx> monitor_places() const = 0;
+  /// "HDMI-1, DP-2": all monitors of its display.
+  virtual std::string monitor_names() const = 0;
   /// The screen that most of the window is on.
   virtual ScreenReport screen() const = 0;
   /// Upper left of the window's content and of that screen; pixels from the upper left of the
@@ -97,7 +103,7 @@ class Window : public Surface {
 /// Whether a window can be opened at all (DISPLAY or WAYLAND_DISPLAY).
 bool has_display();
 
-/// Throws Error where there is no display or no OpenGL 4.5.
+/// Throws Error where there is no display, no OpenGL 4.5, or no such monitor.
 std::unique_ptr<Window> make_window(const WindowOptions& options);
 
 }  // namespace vindu

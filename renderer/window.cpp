@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "renderer/gl/handle.h"
@@ -56,6 +57,39 @@ Rect rect_of(GLFWmonitor* monitor) {
   return rect;
 }
 
+std::vector<GLFWmonitor*> all_monitors() {
+  int count = 0;
+  GLFWmonitor** const monitors = glfwGetMonitors(&count);
+  return {monitors, monitors + count};
+}
+
+std::string names_of_monitors() {
+  std::string names;
+  for (GLFWmonitor* monitor : all_monitors())
+    names += (names.empty() ? "" : ", ") + std::string(glfwGetMonitorName(monitor));
+  return names;
+}
+
+GLFWmonitor* monitor_named(const std::string& name) {
+  for (GLFWmonitor* monitor : all_monitors())
+    if (glfwGetMonitorName(monitor) == name) return monitor;
+  throw Error({"there is no monitor \"" + name + "\"", "monitor",
+               "name one that is connected here: " + names_of_monitors()});
+}
+
+Rect around(const std::vector<Rect>& rects) {
+  Rect all = rects.front();
+  for (const Rect& rect : rects) {
+    const int right = std::max(all.x + all.width, rect.x + rect.width),
+              bottom = std::max(all.y + all.height, rect.y + rect.height);
+    all.x = std::min(all.x, rect.x);
+    all.y = std::min(all.y, rect.y);
+    all.width = right - all.x;
+    all.height = bottom - all.y;
+  }
+  return all;
+}
+
 template <class Function>
 Function* glx_function(const char* name) {
   return reinterpret_cast<Function*>(glfwGetProcAddress(name));
@@ -91,17 +125,7 @@ class GlfwWindow final : public Window {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_TRUE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
-    GLFWmonitor* monitor = options.fullscreen ? glfwGetPrimaryMonitor() : nullptr;
-    SizePx size = options.size;
-    if (monitor) {
-      const Rect screen = rect_of(monitor);
-      size = {screen.width, screen.height};
-    }
-    window_ = glfwCreateWindow(size.width, size.height, options.title.c_str(), monitor, nullptr);
-    if (!window_)
-      throw Error({"cannot open a window: " + last_glfw_error(), "display",
-                   "OpenGL 4.5 is needed; draw without a window: vindu render"});
-    if (options.fullscreen) glfwSetInputMode(window_, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+    open(options);
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwSetWindowUserPointer(window_, this);
@@ -124,6 +148,16 @@ class GlfwWindow final : public Window {
     glfwDestroyWindow(window_);
   }
 
+  std::vector<RectPx> monitor_places() const override {
+    std::vector<RectPx> places;
+    for (const Rect& rect : covered_) {
+      const Rect all = around(covered_);
+      const int from_bottom = all.y + all.height - rect.y - rect.height;
+      places.push_back({rect.x - all.x, from_bottom, {rect.width, rect.height}});
+    }
+    return places;
+  }
+  std::string monitor_names() const override { return names_of_monitors(); }
   SizePx size() const override {
     SizePx size;
     glfwGetFramebufferSize(window_, &size.width, &size.height);
@@ -173,6 +207,29 @@ class GlfwWindow final : public Window {
   }
 
  private:
+  /// One monitor is covered as full screens are; several by one window without a frame, so that
+  /// they swap together.
+  void open(const WindowOptions& options) {
+    std::vector<GLFWmonitor*> monitors;
+    for (const std::string& name : options.monitors) monitors.push_back(monitor_named(name));
+    if (monitors.empty() && options.fullscreen) monitors.push_back(glfwGetPrimaryMonitor());
+    for (GLFWmonitor* monitor : monitors) covered_.push_back(rect_of(monitor));
+    const bool spans = monitors.size() > 1;
+    glfwWindowHint(GLFW_DECORATED, !spans);
+    glfwWindowHint(GLFW_FLOATING, spans);
+    glfwWindowHint(GLFW_VISIBLE, !spans);
+    const Rect place =
+        covered_.empty() ? Rect{0, 0, options.size.width, options.size.height} : around(covered_);
+    window_ = glfwCreateWindow(place.width, place.height, options.title.c_str(),
+                               monitors.size() == 1 ? monitors.front() : nullptr, nullptr);
+    if (!window_)
+      throw Error({"cannot open a window: " + last_glfw_error(), "display",
+                   "OpenGL 4.5 is needed; draw without a window: vindu render"});
+    if (!monitors.empty()) glfwSetInputMode(window_, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+    if (!spans) return;
+    glfwSetWindowPos(window_, place.x, place.y);
+    glfwShowWindow(window_);
+  }
   static GlfwWindow& self(GLFWwindow* window) {
     return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
   }
@@ -183,19 +240,18 @@ class GlfwWindow final : public Window {
     return rect;
   }
   GLFWmonitor* current_monitor() const {
-    int count = 0;
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
     GLFWmonitor* best = nullptr;
     long most = -1;
-    for (int index = 0; index < count; ++index)
-      if (const long shared = overlap(window_rect(), rect_of(monitors[index])); shared > most) {
+    for (GLFWmonitor* monitor : all_monitors())
+      if (const long shared = overlap(window_rect(), rect_of(monitor)); shared > most) {
         most = shared;
-        best = monitors[index];
+        best = monitor;
       }
     return best;
   }
 
   Glfw glfw_;
+  std::vector<Rect> covered_;  // of the desktop, y down
   GLFWwindow* window_ = nullptr;
   gl::Fence swapped_;
   double wheel_ = 0;

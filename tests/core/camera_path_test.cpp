@@ -100,8 +100,7 @@ TEST(CameraPathFile, SaysAllThatIsWrong) {
       read_camera_path);
   EXPECT_EQ(complaint,
             "FILE:1: closing_s: is -1; from 0.01 to 1000000 is allowed\n"
-            "FILE:3: key[0].t_s: is out of order; the first key is at 0, every other one after the "
-            "last\n"
+            "FILE:3: key[0].t_s: is 1; 0 is allowed, for the first key\n"
             "FILE:5: key[1].t_s: is missing; for example t_s = 1.5\n"
             "FILE:6: key[1].eye_m: is [0, 0.1]; 3 numbers from -1000 to 1000 in brackets are "
             "allowed\n"
@@ -118,7 +117,7 @@ TEST(CameraPathFile, HasItsKeysInOrder) {
   EXPECT_THAT(complaint_about("[[key]]\nt_s = 0\neye_m = [0, 0, 1]\n"
                               "[[key]]\nt_s = 0\neye_m = [0, 0, 1]\n",
                               read_camera_path),
-              HasSubstr("FILE:5: key[1].t_s: is out of order"));
+              HasSubstr("FILE:5: key[1].t_s: is 0; more than 0, that of the key before, is"));
 }
 
 }  // namespace

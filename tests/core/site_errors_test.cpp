@@ -64,8 +64,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"AFieldInAnotherUnit", "width_mm = 3\n",
              "FILE:8: wall.width_mm: is not known; did you mean \"width_m\"?"},
         Case{"AColumnTurnedTooFar", "curve_deg = 100\n",
-             "FILE:8: wall.curve_deg: turns neighbouring columns by more than 90 degrees; bend it "
-             "less"},
+             "FILE:8: wall.curve_deg: is 100; from 0 to 90 is allowed for 2 columns, 90 degrees "
+             "from "
+             "each to the next"},
         Case{"AnUnknownField", "bezel_mm = 3\n",
              "FILE:8: wall.bezel_mm: is not known; did you mean \"bezel_x_mm\"?"},
         Case{"AnUnknownTable", "[veiwer]\n",
@@ -111,16 +112,17 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"ATileWithOneCorner", "[[tile]]\nname = \"tile-0-0\"\nupper_left_m = [0, 0, 0]\n",
              "FILE:8: tile[0].lower_left_m: a tile's own place needs lower_left_m, lower_right_m "
              "and upper_left_m together"},
-        Case{"ATileWithoutArea",
-             "[[tile]]\nname = \"tile-0-0\"\nlower_left_m = [0, 0, 0]\n"
-             "lower_right_m = [0, 0, 0]\nupper_left_m = [0, 1, 0]\n",
-             "FILE:10: tile[0].lower_left_m: the three corners enclose no area; measure them "
-             "again"},
+        Case{
+            "ATileWithoutArea",
+            "[[tile]]\nname = \"tile-0-0\"\nlower_left_m = [0, 0, 0]\n"
+            "lower_right_m = [0, 0, 0]\nupper_left_m = [0, 1, 0]\n",
+            "FILE:10: tile[0].lower_left_m: the edges are 0.0000 and 1.0000 m long; at least 0.001 "
+            "m is allowed; measure the corners again"},
         Case{"ATileThatIsSkewed",
              "[[tile]]\nname = \"tile-0-0\"\nlower_left_m = [0, 0, 0]\n"
              "lower_right_m = [1, 0, 0]\nupper_left_m = [0.04, 1, 0]\n",
-             "FILE:10: tile[0].lower_left_m: the edges do not meet at a right angle within 2 "
-             "degrees; measure the corners again"},
+             "FILE:10: tile[0].lower_left_m: the edges meet at 87.7 degrees; from 88 to 92 is "
+             "allowed; measure the corners again"},
         Case{"ACameraWithoutADirection", kCamera + "position_m = [0, 1, 2]\n",
              "FILE:8: camera[0].look_at_m: is missing; write look_at_m = [0, 1.65, 2.0], or "
              "heading_deg, pitch_deg, roll_deg"},
@@ -130,7 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
              "one of both"},
         Case{"ACameraThatLooksAtItself",
              kCamera + "position_m = [0, 1, 2]\nlook_at_m = [0, 1, 2]\n",
-             "FILE:12: camera[0].look_at_m: is where the camera stands; look somewhere else"},
+             "FILE:12: camera[0].look_at_m: is 0.0000 m from position_m; at least 0.001 m is "
+             "allowed"},
         Case{"TwoCamerasOfOneName",
              kCamera + "position_m = [0, 1, 2]\nlook_at_m = [0, 0, 0]\n" + kCamera +
                  "position_m = [0, 1, 2]\nlook_at_m = [0, 0, 0]\n",
@@ -199,10 +202,8 @@ TEST(SiteErrors, LeaveAPictureBetweenTheBezels) {
       "tile_width_px = 100\ntile_height_px = 50\nbezel_x_mm = 1000\nbezel_y_mm = 500\n",
       read_site);
   EXPECT_EQ(wrong,
-            "FILE:8: wall.bezel_x_mm: leaves no width for the pictures; make it smaller than the "
-            "wall\n"
-            "FILE:9: wall.bezel_y_mm: leaves no height for the pictures; make it smaller than the "
-            "wall");
+            "FILE:8: wall.bezel_x_mm: is 1000; less than 1000.0 is allowed, 2000 mm for 2 bezels\n"
+            "FILE:9: wall.bezel_y_mm: is 500; less than 500.0 is allowed, 1000 mm for 2 bezels");
 }
 
 TEST(SiteErrors, ComeAllAtOnceInTheOrderOfTheLines) {

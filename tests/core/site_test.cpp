@@ -59,10 +59,11 @@ TEST(Site, TakesEveryFieldOfTheWall) {
 TEST(Site, TakesExceptionsForSingleTiles) {
   const Site site = site_of(kGrid +
                             "mirror = true\n[[tile]]\nname = \"tile-1-0\"\nhost = \"spare\"\n"
-                            "rotate_deg = 90\nlower_left_m = [0, -0.5, 0.1]\n"
+                            "monitor = \"HDMI-1\"\nrotate_deg = 90\nlower_left_m = [0, -0.5, 0.1]\n"
                             "lower_right_m = [1, -0.5, 0.2]\nupper_left_m = [0, 0.5, 0.1]\n");
   const Tile& tile = *site.wall.find("tile-1-0");
   EXPECT_EQ(tile.host, "spare");
+  EXPECT_EQ(tile.monitor, "HDMI-1");
   EXPECT_EQ(tile.mount, (TileMount{.mirror = true, .rotate_deg = 90}));
   EXPECT_THAT(tile.corners.lower_right_in_wall, IsNearPoint(Vec3(1, -0.5, 0.2), 0));
   EXPECT_EQ(site.wall.find("tile-0-0")->host, "tile-0-0");

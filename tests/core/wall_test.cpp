@@ -54,6 +54,13 @@ TEST(TileCorners, KnowTheirCentreAndSize) {
   EXPECT_THAT(tile.normal_in_wall(), IsNearPoint(Vec3(-0.8, 0, 0.6), kExact_m));
 }
 
+TEST(TileCorners, HaveTheirOwnFrameInTheMiddleOfThePicture) {
+  const TileCorners tile{{1, 2, 0}, {4, 2, 4}, {1, 4, 0}};
+  EXPECT_THAT(tile.wall_from_screen() * Vec3(-2.5, -1, 0), IsNearPoint(Vec3(1, 2, 0), kExact_m));
+  EXPECT_THAT(tile.wall_from_screen() * Vec3(2.5, -1, 0), IsNearPoint(Vec3(4, 2, 4), kExact_m));
+  EXPECT_THAT(tile.wall_from_screen() * Vec3(-2.5, 1, 0), IsNearPoint(Vec3(1, 4, 0), kExact_m));
+}
+
 TEST(Bezels, LieBetweenPicturesAndLeaveTheOuterSizeAsItIs) {
   WallGrid grid = tromso_grid();
   grid.bezel_x_mm = 10;

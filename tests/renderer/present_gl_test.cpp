@@ -70,6 +70,26 @@ TEST_P(Mounts, MovePixelsAndChangeNone) {
   }
 }
 
+TEST_P(Mounts, TakeAPartOfThePictureOfSeveralTiles) {
+  const Image left = noise({90, 120}), right = mirrored(noise({90, 120}));
+  Image both = Image::filled(180, 120, kBlack);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 90; ++x) {
+      both.at(x, y) = left.at(x, y);
+      both.at(90 + x, y) = right.at(x, y);
+    }
+  Image wanted = GetParam().mirror ? mirrored(right) : right;
+  for (int turns = 0; turns < GetParam().rotate_deg / 90; ++turns)
+    wanted = turned_clockwise(wanted);
+  const SizePx size{wanted.width_px, wanted.height_px};
+  Picture picture({180, 120}, Style::unlit), display(size, Style::unlit);
+  upload(both, picture);
+  glBindFramebuffer(GL_FRAMEBUFFER, display.framebuffer());
+  glViewport(0, 0, size.width, size.height);
+  SceneRenderer(Style::unlit).present(picture, GetParam(), {90, 0, {90, 120}});
+  EXPECT_EQ(display.read().pixels, wanted.pixels);
+}
+
 INSTANTIATE_TEST_SUITE_P(PresentGl, Mounts,
                          ::testing::Values(TileMount{false, 0}, TileMount{true, 0},
                                            TileMount{false, 90}, TileMount{true, 90},
