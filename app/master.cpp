@@ -101,6 +101,7 @@ class MasterRun {
       bus_->wait(kHears, wake);
     }
     figures_.length = clock_.now() - start;
+    if (stopped_) answer_stragglers();
     figures_.tiles = wall_.tiles();
     figures_.end();
     return figures_;
@@ -113,6 +114,15 @@ class MasterRun {
                                     Topic::camera, Topic::answer, Topic::event};
   static constexpr Topics kJoins = {Topic::ready,   Topic::tile_status, Topic::presence,
                                     Topic::command, Topic::pose,        Topic::event};
+
+  /// Whoever asked it to stop may not be heard of by the time of the answer: he asks again.
+  void answer_stragglers() {
+    const Time end = clock_.now() + 2 * kAskAgain + std::chrono::milliseconds(100);
+    while (clock_.now() < end) {
+      bus_->wait({Topic::command}, end);
+      desk_.take();
+    }
+  }
 
   void set_mode(const std::string& mode, const std::string& path_file) {
     if (mode == "touch") {

@@ -5,10 +5,6 @@
 namespace vindu {
 namespace {
 
-using std::chrono::milliseconds;
-
-constexpr auto kAskAgain = milliseconds(250);
-
 [[noreturn]] void no_answer(const std::optional<Participant>& master,
                             const std::optional<Participant>& other, const Participant& self) {
   if (other) throw Error({version_complaint(self, *other), "the wall", ""});

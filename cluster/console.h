@@ -11,6 +11,9 @@
 
 namespace vindu {
 
+/// So often a console repeats its command until it is answered.
+constexpr Duration kAskAgain = std::chrono::milliseconds(250);
+
 /// What a console asks for.
 struct Request {
   Verb verb = Verb::show;
