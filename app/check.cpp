@@ -10,6 +10,7 @@
 #include "app/calibrate.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/site_json.h"
 #include "core/error.h"
 
 namespace vindu::app {
@@ -18,6 +19,7 @@ namespace {
 struct CheckOptions {
   std::string wall_file;
   std::string drawing;
+  bool json = false;
 };
 
 std::string shown(const Vec3& point) {
@@ -43,6 +45,7 @@ void print_wall(const Site& site) {
   for (const Tile& tile : wall.tiles) {
     const TileCorners& corners = tile.corners;
     std::string mount = tile.mount.mirror ? "  mirrored" : "";
+    if (!tile.monitor.empty()) mount = "  on " + tile.monitor + mount;
     if (tile.mount.rotate_deg) mount += fmt::format("  turned {} deg", tile.mount.rotate_deg);
     fmt::print("  {:<10} {:<12} {}x{}  lower left {}  lower right {}  upper left {}{}\n", tile.name,
                tile.host, tile.width_px, tile.height_px, shown(corners.lower_left_in_wall),
@@ -172,7 +175,10 @@ void draw_plan(Drawing& drawing, const Site& site) {
 
 int check(const CheckOptions& options) {
   const Site site = load_site(options.wall_file);
-  print_wall(site);
+  if (options.json)
+    std::fputs(json_of(site).c_str(), stdout);
+  else
+    print_wall(site);
   if (options.drawing.empty()) return 0;
   Drawing drawing;
   draw_front(drawing, site.wall);
@@ -180,7 +186,7 @@ int check(const CheckOptions& options) {
   std::ofstream file(options.drawing);
   file << drawing.svg();
   if (!file.flush()) throw Error({"cannot be written", options.drawing, "choose another --draw"});
-  std::printf("%s\n", options.drawing.c_str());
+  if (!options.json) std::printf("%s\n", options.drawing.c_str());
   return 0;
 }
 
@@ -193,6 +199,7 @@ void add_check(CLI::App& parent, Action& chosen) {
   app->add_option("WALL", options->wall_file, "Wall file (default: the 7x4 Tromsø wall)");
   app->add_option("--draw", options->drawing, "Drawing of the wall and of the room from above")
       ->type_name("FILE.svg");
+  app->add_flag("--json", options->json, "The same as JSON, for other programs");
   app->footer("\nExamples:\n  vindu check wall.toml\n  vindu check wall.toml --draw wall.svg\n");
   app->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/common.h"
+
 namespace vindu::app {
 namespace {
 
@@ -84,6 +86,39 @@ std::string row_text(const Row& row, const char* unit) {
                      row.spread.p95, row.spread.largest, unit);
 }
 
+/// What a tracker found, and why not, as members of a JSON object.
+std::string tracking_json(const TrackerCounts& counts) {
+  std::string levels, reasons;
+  for (std::size_t level = 0; level < counts.frames_by_level.size(); ++level)
+    levels +=
+        fmt::format("{}\"{}\": {}", level ? ", " : "", name_of(static_cast<TrackingLevel>(level)),
+                    counts.frames_by_level[level]);
+  for (std::size_t reason = 0; reason < kNoPoseReasons; ++reason)
+    reasons += fmt::format("{}\"{}\": {}", reason ? ", " : "", name_of(static_cast<NoPose>(reason)),
+                           counts.frames_lost_by_reason[reason]);
+  return fmt::format(
+      ", \"reports\": {}, \"frames_tracked\": {}, \"frames_lost\": {}, \"frames_by_level\": "
+      "{{{}}}, \"frames_lost_by_reason\": {{{}}}",
+      counts.reports, counts.frames_tracked(), counts.frames_lost(), levels, reasons);
+}
+
+std::string cameras_json(const std::vector<CameraState>& cameras) {
+  std::string text;
+  for (const CameraState& camera : cameras) {
+    std::string gaps;
+    for (std::size_t cause = 0; cause < camera.gaps.size(); ++cause)
+      if (const GapCount& count = camera.gaps[cause]; count.gaps)
+        gaps +=
+            fmt::format("{}\"{}\": {{\"gaps\": {}, \"total_ms\": {:.1f}, \"longest_ms\": {:.1f}}}",
+                        gaps.empty() ? "" : ", ", name_of(static_cast<GapCause>(cause)), count.gaps,
+                        milliseconds(count.total), milliseconds(count.longest));
+    text += fmt::format("{}{{\"name\": {}, \"trouble\": {}, \"gaps\": {{{}}}}}",
+                        text.empty() ? "" : ", ", json_text(camera.name), json_text(camera.trouble),
+                        gaps);
+  }
+  return text;
+}
+
 std::string tracking_text(const RunReport& report) {
   if (!report.tracker) return "";
   const TrackerCounts& counts = report.tracker->counts();
@@ -147,13 +182,16 @@ std::string json_of(const RunReport& report) {
     rows += fmt::format(", \"{}\": {{\"mean\": {:.4f}, \"p95\": {:.4f}, \"max\": {:.4f}}}", row.key,
                         row.spread.mean, row.spread.p95, row.spread.largest);
   if (report.tracker)
-    rows += fmt::format(", \"frames_tracked\": {}, \"frames_lost\": {}",
-                        report.tracker->counts().frames_tracked(),
-                        report.tracker->counts().frames_lost());
+    rows += tracking_json(report.tracker->counts()) +
+            fmt::format(", \"frames_with_eye_held\": {}", led_frames(report));
+  if (!report.cameras.empty()) rows += ", \"cameras\": [" + cameras_json(report.cameras) + "]";
   return fmt::format(
-      "{{\"frames\": {}, \"seconds\": {:.3f}, \"ticks_missed\": {}, \"scale\": {:.4f}{}}}\n",
+      "{{\"frames\": {}, \"seconds\": {:.3f}, \"ticks_missed\": {}, \"ticks_at_rest\": {}, "
+      "\"frames_with_black_tiles\": {}, \"scale\": {:.4f}, \"width_px\": {}, \"height_px\": {}, "
+      "\"gl\": {}{}}}\n",
       report.loop.frames.size(), seconds(report.loop.length), report.loop.ticks_missed,
-      report.scale, rows);
+      report.loop.ticks_at_rest, black_frames(report), report.scale, report.wall_px.width,
+      report.wall_px.height, json_text(report.gl), rows);
 }
 
 }  // namespace vindu::app

@@ -12,6 +12,7 @@
 #include "app/contact_sheet.h"
 #include "app/emulation.h"
 #include "app/eye_source.h"
+#include "app/fluid_scale.h"
 #include "app/frame_csv.h"
 #include "app/frame_loop.h"
 #include "app/report.h"
@@ -105,19 +106,6 @@ double frame_s(const Run& run, double scale) {
   return times_s[kFrames / 2];
 }
 
-/// The largest scale at which this machine draws a frame within `budget_s`. A frame takes time for
-/// its triangles, whatever the scale, and for its pixels: a + b * scale^2, known from two trials.
-/// Where the triangles alone come near the budget, the pixels get a fifth of what they take:
-/// drawing still smaller would gain little.
-double fluid_scale(const Run& run, double budget_s) {
-  constexpr double kSmall = 0.05, kLarge = 0.2;
-  const double small_s = frame_s(run, kSmall), large_s = frame_s(run, kLarge);
-  const double pixels_s = std::max(large_s - small_s, 1e-6) / (kLarge * kLarge - kSmall * kSmall);
-  const double triangles_s = std::max(small_s - pixels_s * kSmall * kSmall, 0.0);
-  return std::clamp(std::sqrt(std::max(budget_s - triangles_s, 0.2 * triangles_s) / pixels_s), 0.04,
-                    1.0);
-}
-
 std::unique_ptr<EyeSource> make_eyes(Run& run) {
   const SimulateOptions& options = run.options;
   if (options.mode == "loop")
@@ -159,7 +147,10 @@ Run assemble(const SimulateOptions& options) {
     run.surface = make_headless_surface({.device = options.device});
   log_info("simulate", gl_description());
   const double budget_s = windowed ? 0.014 : 0.028;  // 30 a second; in a window half for the room
-  const double scale = options.scale ? *options.scale : manual ? 0.1 : fluid_scale(run, budget_s);
+  const double scale = options.scale ? *options.scale
+                       : manual
+                           ? 0.1
+                           : fluid_scale([&](double at) { return frame_s(run, at); }, budget_s);
   run.wall = std::make_unique<WallRenderer>(run.site.wall, scale, live_look());
   run.wall->show(run.loaded.packed);
   run.room =
@@ -299,6 +290,22 @@ Moment picture_moment(Run& run, WallRenderer& wall, RoomView& room, const std::s
           .eye = picture_from_eye(wall, eye, {kColumn_px, kColumn_px * 9 / 16})};
 }
 
+/// "Two emulated Wiimotes behind the person track the helmet."
+std::string trackers_in_words(const Site& site) {
+  if (!all_emulated(site)) return "The wall file's cameras track the head";
+  constexpr const char* kWords[] = {"No", "One", "Two", "Three", "Four", "Five", "Six"};
+  const std::size_t count = site.cameras.size();
+  const auto towards_wall = std::ranges::count_if(site.cameras, [](const CameraConfig& camera) {
+    return (camera.room_from_camera.rotation * Vec3::UnitZ()).z() < 0;
+  });
+  const char* const place = towards_wall == std::ssize(site.cameras) ? " behind the person"
+                            : towards_wall == 0                      ? " before the person"
+                                                                     : "";
+  return fmt::format("{} emulated Wiimote{}{} track{} the helmet",
+                     count < std::size(kWords) ? kWords[count] : std::to_string(count),
+                     count == 1 ? "" : "s", place, count == 1 ? "s" : "");
+}
+
 void save_sheet(Run& run, const LoopResult& result) {
   const auto moments = choose_moments(result.frames);
   if (moments.empty()) return;
@@ -309,10 +316,8 @@ void save_sheet(Run& run, const LoopResult& result) {
   for (const auto& [title, frame] : moments)
     pictures.push_back(picture_moment(run, wall, room, title, *frame));
   make_folder(run.options.out);
-  const std::string source = run.options.mode == "loop" ? "The eye follows a path"
-                             : all_emulated(run.site)
-                                 ? "Two emulated Wiimotes behind the person track the helmet"
-                                 : "The wall file's cameras track the head";
+  const std::string source =
+      run.options.mode == "loop" ? "The eye follows a path" : trackers_in_words(run.site);
   const Image sheet =
       contact_sheet({"Vindu: the wall is a window",
                      source + "; each tile draws what that eye would see through it."},

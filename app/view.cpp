@@ -1,5 +1,7 @@
 // vindu view: a model on one screen, head-coupled: a window that looks through the screen into the
 // scene. The frustum follows the window when it is moved.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -30,16 +32,42 @@ PersonOptions walk_before(const Wall& wall, Time start, std::uint64_t seed) {
   return person;
 }
 
-std::unique_ptr<EyeSource> choose_eyes(const ViewOptions& options, Window& window, const Site& site,
-                                       const EmulatedRoom& room, Clock& clock) {
-  if (options.eye) return stay(*options.eye);
-  if (options.mouse) return follow_pointer(window, site.wall, site.viewer.default_eye_in_wall);
-  if (!options.path_file.empty()) return follow_path(read_camera_path(options.path_file));
-  if (!options.track) return follow_person(room.person());
+/// --eye, or the default. Throws Error for one that cannot see the screen.
+Vec3 checked_eye(const ViewOptions& options, const Site& site) {
+  const Vec3 eye_in_wall = options.eye.value_or(site.viewer.default_eye_in_wall);
+  if (!tile_view(site.wall.tiles.front().corners, eye_in_wall))
+    throw Error({fmt::format("{:.3f},{:.3f},{:.3f} is at or behind the screen's plane",
+                             eye_in_wall.x(), eye_in_wall.y(), eye_in_wall.z()),
+                 options.eye ? "--eye" : "viewer.default_eye_m", "give one before it: z > 0"});
+  return eye_in_wall;
+}
+
+void check_cameras(const Site& site) {
   if (site.cameras.empty())
     throw Error({"no cameras are known", "--track",
                  "name a wall file of one screen with [[camera]] tables, as "
                  "assets/walls/desk.toml: --wall FILE"});
+}
+
+/// Where no window can be opened: the eye of the one picture, and what is left out.
+Vec3 eye_of_picture(const ViewOptions& options, const Site& site) {
+  if (options.track) check_cameras(site);
+  for (const auto& [given, name] :
+       {std::pair(options.track, "--track"), std::pair(options.mouse, "--mouse"),
+        std::pair(options.seconds.has_value(), "--seconds"),
+        std::pair(options.fullscreen, "--fullscreen"), std::pair(options.json, "--json")})
+    if (given) log_warning(name, "needs a display: it is left out");
+  if (!options.path_file.empty()) return read_camera_path(options.path_file).eye_at(0);
+  return checked_eye(options, site);
+}
+
+std::unique_ptr<EyeSource> choose_eyes(const ViewOptions& options, Window& window, const Site& site,
+                                       const EmulatedRoom& room, Clock& clock) {
+  if (options.eye) return stay(checked_eye(options, site));
+  if (options.mouse) return follow_pointer(window, site.wall, site.viewer.default_eye_in_wall);
+  if (!options.path_file.empty()) return follow_path(read_camera_path(options.path_file));
+  if (!options.track) return follow_person(room.person());
+  check_cameras(site);
   return std::make_unique<TrackedEye>(site, room, clock, TrackedEyeOptions{});
 }
 
@@ -66,6 +94,7 @@ class RestingEye final : public EyeSource {
 int view_as_picture(const ViewOptions& options) {
   const Site site = screen_site(
       options, {.name = "picture", .size = kPicture, .width_mm = 527, .height_mm = 296});
+  const Vec3 eye = eye_of_picture(options, site);
   const auto surface = make_headless_surface({.device = options.device});
   const LoadedScene loaded =
       load_before(options.model, options, site, site.wall.tiles.front().corners);
@@ -75,11 +104,10 @@ int view_as_picture(const ViewOptions& options) {
   ShadowMap shadow(Look{});
   Canvas canvas(kPicture, Look{});
   Picture picture(kPicture, Style::lit);
-  const Vec3 eye = options.eye.value_or(site.viewer.default_eye_in_wall);
   const Tile& tile = site.wall.tiles.front();
   const FrameState state{.eye_in_wall = eye, .pattern = options.pattern};
   auto view = tile_view(tile.corners, eye);
-  if (!view) throw Error({"is at or behind the screen's plane", "--eye", "give an eye with z > 0"});
+  if (!view) throw Error({"begins at or behind the screen's plane", options.path_file, "z > 0"});
   view->detail = detail_need(tile.corners, kPicture, eye);
   const GpuScene* scenes[] = {&scene};
   shadow.update(scenes, shadow_region(site.wall));
@@ -140,7 +168,7 @@ int view(const ViewOptions& options) {
       .cameras = tracked ? tracked->cameras().states() : std::vector<CameraState>{},
       .wall_px = window->size(),
       .gl = gl_description()};
-  std::fputs(table_of(report).c_str(), stdout);
+  std::fputs((options.json ? json_of(report) : table_of(report)).c_str(), stdout);
   return 0;
 }
 
@@ -174,10 +202,11 @@ void add_view(CLI::App& parent, Action& chosen) {
   add_pattern_choice(*app, options->pattern);
   add_clip(*app, options->clip);
   app->add_flag("--fullscreen", options->fullscreen, "Cover the screen");
+  app->add_flag("--json", options->json, "Figures as JSON");
   app->add_option("--seconds", options->seconds, "End by itself")->check(between(0.05, 1e6));
   app->add_option("--seed", options->seed, "Of the simulated walk");
   add_emulation(*app, options->emulation);
-  for (const char* name : {"--link", "--kernel"}) app->get_option(name)->needs(track);
+  for (const char* name : {"--link", "--kernel", "--press"}) app->get_option(name)->needs(track);
   app->add_option("--device", options->device, "EGL device (GPU) by its index, without a display");
   app->add_option(
       "--out", options->out,

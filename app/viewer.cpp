@@ -13,14 +13,14 @@
 namespace vindu::app {
 namespace {
 
+constexpr double kDeskHeight_m = 1.2;                       // of a screen's centre above the floor
 constexpr Duration kUpload = std::chrono::milliseconds(4);  // of a frame
-constexpr Duration kSaid = std::chrono::seconds(8);         // for people to read
+constexpr Duration kSaidOfEye = std::chrono::seconds(1);
+constexpr Duration kSaid = std::chrono::seconds(8);  // for people to read
 
-/// The screen as the monitor reports it, checked for sense, or as it was typed or written down.
-/// Metres.
-Vec2 screen_size_m(const ViewOptions& options, const ScreenReport& screen, const Site* site) {
+/// The screen as it was typed, or as the monitor reports it, checked for sense. Metres.
+Vec2 screen_size_m(const ViewOptions& options, const ScreenReport& screen) {
   if (options.screen_mm.size() == 2) return 1e-3 * Vec2(options.screen_mm[0], options.screen_mm[1]);
-  if (site) return {site->wall.grid.width_m, site->wall.grid.height_m};
   const std::string doubt = doubt_about(screen);
   if (doubt.empty()) return 1e-3 * Vec2(screen.width_mm, screen.height_mm);
   Vec2 assumed = 25.4e-3 / 96 * Vec2(screen.size.width, screen.size.height);
@@ -29,6 +29,25 @@ Vec2 screen_size_m(const ViewOptions& options, const ScreenReport& screen, const
                                            std::to_string(std::lround(1e3 * assumed.y())) +
                                            " mm; measure it and say --screen-mm WIDTH HEIGHT");
   return assumed;
+}
+
+/// The file's screen, wherever it stands, unless its size was typed: then one of that size.
+Wall screen_wall(const ViewOptions& options, const ScreenReport& screen, const Site* written) {
+  if (!written || !options.screen_mm.empty()) {
+    const Vec2 size_m = screen_size_m(options, screen);
+    Wall wall = single_screen(size_m.x(), size_m.y(), screen.size.width, screen.size.height);
+    if (written) wall.tiles.front().mount = written->wall.tiles.front().mount;
+    wall.room_from_wall =
+        written ? written->wall.room_from_wall : room_from_wall_at(kDeskHeight_m, 0);
+    return wall;
+  }
+  Wall wall = written->wall;
+  Tile& tile = wall.tiles.front();
+  wall.grid.width_m = tile.corners.width_m();
+  wall.grid.height_m = tile.corners.height_m();
+  wall.grid.tile_width_px = tile.width_px = screen.size.width;
+  wall.grid.tile_height_px = tile.height_px = screen.size.height;
+  return wall;
 }
 
 std::string file_name(const std::string& model) {
@@ -54,14 +73,10 @@ Site screen_site(const ViewOptions& options, const ScreenReport& screen) {
     throw Error(
         {"has " + std::to_string(written->wall.tiles.size()) + " tiles, but view shows one screen",
          options.wall_file, "use vindu simulate, or vindu render"});
-  const Vec2 size_m = screen_size_m(options, screen, written ? &*written : nullptr);
   Site site = written.value_or(Site{});
-  const TileMount mount = written ? written->wall.tiles.front().mount : TileMount{};
-  const double height_m = written ? written->wall.room_from_wall.translation.y() : 1.2;
-  site.wall = single_screen(size_m.x(), size_m.y(), screen.size.width, screen.size.height);
-  site.wall.tiles.front().mount = mount;
-  site.wall.room_from_wall = room_from_wall_at(height_m, 0);
-  if (!written) site.viewer.default_eye_in_wall = {0, 0.15 * size_m.x(), 1.3 * size_m.x()};
+  site.wall = screen_wall(options, screen, written ? &*written : nullptr);
+  const double width_m = site.wall.grid.width_m;
+  if (!written) site.viewer.default_eye_in_wall = {0, 0.15 * width_m, 1.3 * width_m};
   return site;
 }
 
@@ -77,7 +92,9 @@ LoadedScene load_before(const std::string& model, const ViewOptions& options, co
   LoadedScene loaded = load_scene(model, options.place, place_before,
                                   model == options.model ? options.clip : "", stop);
   const bool own_place = options.place == Placement::as_is;
-  if (!own_place) loaded.navigation.wall_from_scene.translation += content.centre_in_wall();
+  if (!own_place)
+    loaded.navigation.wall_from_scene =
+        content.wall_from_screen() * loaded.navigation.wall_from_scene;
   return loaded;
 }
 
@@ -109,6 +126,7 @@ bool Viewer::load_first() {
 }
 
 bool Viewer::due(FrameState state) {
+  if (window_.size().width < 1 || window_.size().height < 1) return false;  // minimised
   if (!shown_->stage.plays()) state.animation_time_s = 0;
   const TileCorners content = content_corners(site_.wall.tiles.front(), window_);
   Showing next{.content_hash = content_hash_of(state),
@@ -147,6 +165,8 @@ int Viewer::draw(const FrameState& state) {
   PatternPainter::draw_number(state, {0, 0, size}, *picture_);
   statistics_.timer().end();
   if (picture_wanted_ && !saving_.running()) save(picture_->read());
+  if (!view)
+    caption_.say("the eye is at or behind the screen: there is nothing to see", began + kSaidOfEye);
   caption_.draw(*picture_, began);
   put_into_window(*picture_);
   statistics_.draw_over(renderer_);

@@ -40,6 +40,7 @@ struct ViewOptions {
   bool mouse = false;
   bool track = false;
   bool fullscreen = false;
+  bool json = false;
   EmulationOptions emulation;
 };
 

@@ -20,6 +20,19 @@ TEST_F(CheckCommand, PrintsEveryTileOfTheWallThatComesWithVindu) {
   EXPECT_THAT(result.err, IsEmpty());
 }
 
+TEST_F(CheckCommand, SaysTheSameAsJson) {
+  const ProcessResult result = vindu({"check", "--json", "--draw", path("wall.svg")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(
+      result.out,
+      AllOf(
+          ::testing::StartsWith("{\"columns\": 7, "), ::testing::EndsWith("]}\n"),
+          HasSubstr(R"({"name": "tile-6-3", "host": "tile-6-3", "monitor": "", "width_px": 1024)"),
+          HasSubstr(R"("default_eye_in_wall_m": [0,0.1,2])"),
+          HasSubstr(R"({"name": "left", "source": "emulated", "position_in_room_m": )")));
+  EXPECT_THAT(files_in(""), ::testing::Contains("wall.svg"));
+}
+
 TEST_F(CheckCommand, DrawsTheWall) {
   const ProcessResult result = vindu({"check", "--draw", path("wall.svg")});
   EXPECT_EQ(result.exit_code, 0);

@@ -185,13 +185,64 @@ look_at_m = [0, 1.3, 0.8]
 focal_px = 1335
 centre_px = [512, 384]
 )");
-  const ProcessResult result = vindu(
-      {"view", small_model(), "--track", "--wall", wall, "--seconds", "1"}, display_.environment());
+  const ProcessResult result =
+      vindu({"view", small_model(), "--track", "--wall", wall, "--seconds", "1", "--json"},
+            display_.environment());
   EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr(R"("frames_by_level": {"six-dof": )"),
+                                HasSubstr(R"("cameras": [{"name": "left", )")));
   const ProcessResult without =
       vindu({"view", small_model(), "--track", "--seconds", "1"}, display_.environment());
   EXPECT_EQ(without.exit_code, 1);
   EXPECT_THAT(without.err, AllOf(HasSubstr("--track"), HasSubstr("--wall")));
+}
+
+TEST_F(Windows, RefuseAnEyeBehindTheScreen) {
+  const ProcessResult result =
+      vindu({"view", small_model(), "--eye", "0,0,-1", "--seconds", "1"}, display_.environment());
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("--eye: 0.000,0.000,-1.000 is at or behind"));
+}
+
+constexpr const char* kTwoMonitors = R"([wall]
+columns = 2
+rows = 1
+width_m = 2
+height_m = 0.75
+tile_width_px = 1024
+tile_height_px = 768
+hosts = "localhost"
+[[tile]]
+name = "tile-0-0"
+monitor = "screen"
+[[tile]]
+name = "tile-1-0"
+monitor = "HDMI-1"
+)";
+
+TEST_F(Windows, CoverTheMonitorThatTheirTileNames) {
+  const std::string wall = write("wall.toml", kTwoMonitors);
+  const Child tile({VINDU_PROGRAM, "tile", "tile-0-0", "--wall", wall}, path("said"),
+                   [this] { setenv("DISPLAY", display_.name().c_str(), 1); });
+  XClient x(display_.name());
+  const auto covered = [&] {
+    const Image screen = x.picture();
+    return screen.at(2, 2) == kNight && screen.at(1597, 997) == kNight;
+  };
+  EXPECT_TRUE(eventually(covered)) << said();
+}
+
+TEST_F(Windows, NameTheMonitorsThatAreThereWhereATilesOwnIsNot) {
+  const std::string wall = write("wall.toml", kTwoMonitors);
+  const auto tile = [&](std::vector<std::string> names) {
+    names.insert(names.begin(), "tile");
+    names.insert(names.end(), {"--wall", wall});
+    return vindu(names, display_.environment());
+  };
+  const ProcessResult missing = tile({"tile-1-0"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("no monitor \"HDMI-1\"; name one that is connected here: "
+                                     "screen"));
 }
 
 using NoDisplay = AppTest;
@@ -211,6 +262,46 @@ TEST_F(NoDisplay, IsSaidForOneThatDoesNotAnswer) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(lines_of(result.err), SizeIs(1));
   EXPECT_THAT(result.err, HasSubstr("display"));
+}
+
+TEST_F(NoDisplay, SaysWhichOptionsOnlyAWindowKeepsTo) {
+  const ProcessResult result =
+      vindu({"view", small_model(), "--seconds", "1", "--mouse", "--out", path("out")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--seconds"), HasSubstr("--mouse")));
+  const ProcessResult blind = vindu({"view", small_model(), "--track", "--out", path("out")});
+  EXPECT_EQ(blind.exit_code, 1);
+  EXPECT_THAT(blind.err, AllOf(HasSubstr("--track"), HasSubstr("--wall")));
+}
+
+// A screen that leans back beside the middle, as a tile of a wall would stand.
+TEST_F(NoDisplay, ShowsAScreenOfAWallFileWhereItStands) {
+  const std::string wall = write("leaning.toml", R"([wall]
+columns = 1
+rows = 1
+width_m = 0.5
+height_m = 0.3
+tile_width_px = 1280
+tile_height_px = 720
+tilt_deg = -20
+
+[[tile]]
+name = "tile-0-0"
+lower_left_m = [0.2, -0.2, 0]
+lower_right_m = [1.0, -0.2, 0]
+upper_left_m = [0.2, 0.22, -0.15]
+)");
+  const std::vector<std::string> what = {small_model(), "--wall",      wall,    "--place",  "as-is",
+                                         "--eye",       "0.3,0.2,0.9", "--out", path("out")};
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.end(), what.begin(), what.end());
+    const ProcessResult result = vindu(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  };
+  run({"view"});
+  run({"render", "--tile", "tile-0-0"});
+  const Image viewed = read_png(path("out/view.png")), tile = read_png(path("out/tile-0-0.png"));
+  EXPECT_EQ(viewed.pixels, tile.pixels);
 }
 
 TEST_F(NoDisplay, RefusesAnEyeBehindTheScreen) {
