@@ -1,6 +1,7 @@
 // vindu pack: a model as a packed scene, which loads at once: into the cache, where every other
 // command finds it, or into a file.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -25,6 +26,7 @@ struct PackCommand {
   std::optional<double> memory_mib;
   std::optional<double> seconds;
   bool here = false;
+  bool json = false;
 };
 
 void limit_memory(double memory_mib) {
@@ -63,12 +65,36 @@ std::string pack_one(const PackCommand& command, const std::string& model) {
   return SceneCache(SceneCache::usual_folder()).entry_of(sha256.value_or(""));
 }
 
+double mebibytes_of(const std::string& file) {
+  return static_cast<double>(std::filesystem::file_size(file)) / 1048576;
+}
+
+std::string json_list(const std::vector<std::string>& texts) {
+  std::vector<std::string> quoted;
+  for (const std::string& text : texts) quoted.push_back(json_text(text));
+  return fmt::format("[{}]", fmt::join(quoted, ", "));
+}
+
+void say_as_json(const std::string& model, const std::string& file, Duration took) {
+  const PackedScene packed = read_scene_file(file);
+  const SceneOutline& scene = packed.scene;
+  std::vector<std::string> clips;
+  for (const auto& animation : scene.animations)
+    clips.push_back(fmt::format(R"({{"name": {}, "seconds": {:.3f}}})", json_text(animation.name),
+                                animation.duration_s));
+  fmt::print(R"({{"model": {}, "file": {}, "triangles": {}, "textures": {}, "clips": [{}], )"
+             R"("mib": {:.2f}, "seconds": {:.3f}, "warnings": {}}})"
+             "\n",
+             json_text(model), json_text(file), scene.triangle_count(), packed.textures.size(),
+             fmt::join(clips, ", "), mebibytes_of(file), seconds(took), json_list(packed.warnings));
+}
+
 void say(const std::string& model, const std::string& file, Duration took) {
   const PackedScene packed = read_scene_file(file);
   const SceneOutline& scene = packed.scene;
   fmt::print("{}: {} triangles, {} textures, {} animations; {:.1f} MiB in {:.2f} s: {}\n", model,
              scene.triangle_count(), packed.textures.size(), scene.animations.size(),
-             static_cast<double>(std::filesystem::file_size(file)) / 1048576, seconds(took), file);
+             mebibytes_of(file), seconds(took), file);
   std::vector<std::string> clips = clip_names(scene);
   for (std::size_t i = 0; i < clips.size(); ++i)
     clips[i] = (clips[i].empty() ? "(no name)" : clips[i]) +
@@ -87,7 +113,7 @@ int pack(const PackCommand& command) {
   for (const std::string& model : command.models) try {
       const Time start = clock.now();
       const std::string file = pack_one(command, model);
-      if (!command.here) say(model, file, clock.now() - start);
+      if (!command.here) (command.json ? say_as_json : say)(model, file, clock.now() - start);
     } catch (const Error& error) {
       if (command.models.size() == 1) throw;
       std::fprintf(stderr, "vindu: %s\n", error.what());
@@ -113,6 +139,7 @@ void add_pack(CLI::App& parent, Action& chosen) {
   app->add_option("--seconds", command->seconds,
                   "And how long (default: 60, and two for each MiB of the file)")
       ->check(between(1, 1e6));
+  app->add_flag("--json", command->json, "A line of JSON for each model");
   app->add_flag("--here", command->here, "In this process: a broken file may end it");
   app->footer(
       "\nExamples:\n"

@@ -8,6 +8,7 @@ namespace vindu {
 namespace {
 
 using namespace testing;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -49,6 +50,14 @@ TEST_F(PackCommand, ListsTheClips) {
   const ProcessResult result = pack({"/usr/share/assimp/models/X/Testwuson.X"});
   EXPECT_THAT(result.out, HasSubstr("clips: 1 Wuson_Run (0.97 s), 2 Wuson_Walk (3.60 s)"));
   EXPECT_THAT(pack({small_model()}).out, Not(HasSubstr("clips")));
+}
+
+TEST_F(PackCommand, SaysTheSameAsJson) {
+  const std::string model = "/usr/share/assimp/models/X/Testwuson.X";
+  EXPECT_THAT(pack({model, small_model(), "--json"}).out,
+              AllOf(HasSubstr("{\"model\": \"" + model + "\", \"file\": \""),
+                    HasSubstr(R"("clips": [{"name": "Wuson_Run", "seconds": 0.9)"),
+                    HasSubstr(R"("triangles": 12, "textures": 0, "clips": [], )")));
 }
 
 TEST_F(PackCommand, ShowsAPackedSceneAsItsModel) {
