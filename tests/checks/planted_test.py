@@ -61,6 +61,8 @@ class Layers(Planted):
                 ("simulator/a.cpp", "<glm/glm.hpp>"), ("tracker/a.cpp", "<assimp/scene.h>"),
                 ("core/log.h", "<spdlog/spdlog.h>"), ("app/a.cpp", "<toml++/toml.h>"),
                 ("renderer/a.cpp", "<CLI/CLI.hpp>"), ("simulator/a.cpp", "<epoxy/gl.h>"),
+                ("app/wiimote.cpp", "<hidapi.h>"), ("tracker/a.cpp", "<hidapi/hidapi.h>"),
+                ("tracker/wiimote/live.cpp", "<sdbus-c++/sdbus-c++.h>"),
                 ("app/a.cpp", '"core/internal/toml_table.h"')]:
             with self.subTest(f"{header} in {name}"):
                 self.assertEqual(len(self.reasons(name, header)), 1)
@@ -70,9 +72,43 @@ class Layers(Planted):
         for name, header in [
                 ("tracker/a.cpp", "<opencv2/core.hpp>"), ("renderer/a.cpp", "<GLFW/glfw3.h>"),
                 ("core/internal/a.h", "<toml++/toml.h>"), ("core/log.cpp", "<spdlog/spdlog.h>"),
-                ("app/main.cpp", "<CLI/CLI.hpp>"), ("core/a.h", "<Eigen/Core>")]:
+                ("app/main.cpp", "<CLI/CLI.hpp>"), ("core/a.h", "<Eigen/Core>"),
+                ("tracker/wiimote/hidapi_bus.cpp", "<hidapi.h>")]:
             with self.subTest(f"{header} in {name}"):
                 self.assertEqual(self.reasons(name, header), [])
+
+    def test_a_library_without_a_row_may_not_be_included_and_the_system_may(self):
+        for header in ["<boost/format.hpp>", "<libusb.h>", '"json.hpp"', '"tests/a.h"']:
+            with self.subTest(header):
+                self.assertEqual(len(self.reasons("app/a.cpp", header)), 1)
+        self.assertEqual(self.reasons("app/a.cpp", "<vector>", "<sys/mman.h>", "<unistd.h>"), [])
+
+    def test_a_path_may_not_lead_upwards(self):
+        for header in ['"../renderer/a.h"', '"tracker/../renderer/a.h"']:
+            with self.subTest(header):
+                self.assertEqual(self.reasons("tracker/a.cpp", header), [
+                    f"tracker/a.cpp:1: includes {header[1:-1]}: write the path from the root"])
+
+    def test_the_emulated_wiimote_and_what_reads_it_share_no_code(self):
+        driver = ["report", "commands", "session", "reader"]
+        emulator = ["emulator", "emulator_camera", "emulator_bus"]
+        for name, others in [("emulator.cpp", driver), ("emulator_link.h", driver),
+                             ("uhid_device.cpp", driver), ("report.cpp", emulator),
+                             ("session.h", emulator)]:
+            for other in others:
+                header = f'"tracker/wiimote/{other}.h"'
+                with self.subTest(f"{header} in {name}"):
+                    self.assertEqual(len(self.reasons(f"tracker/wiimote/{name}", header)), 1)
+                    (self.root / "tracker/wiimote" / name).unlink()
+
+    def test_the_device_is_where_the_emulated_wiimote_and_what_reads_it_meet(self):
+        device = '"tracker/wiimote/hid_device.h"'
+        self.assertEqual(self.reasons("tracker/wiimote/emulator_bus.h", device,
+                                      '"tracker/wiimote/emulator_device.h"', '"core/clock.h"'), [])
+        self.assertEqual(self.reasons("tracker/wiimote/reader.h", device,
+                                      '"tracker/wiimote/session.h"'), [])
+        self.assertEqual(self.reasons("simulator/emulated_room.h",
+                                      '"tracker/wiimote/emulator_bus.h"'), [])
 
 
 class Shape(Planted):
