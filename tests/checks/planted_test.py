@@ -9,6 +9,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import assets
 import format as format_check
 import layers
 import shape
@@ -189,6 +190,17 @@ class Format(Planted):
         self.assertIn("core/a.cpp:1", format_check.unformatted(self.root, CLANG_FORMAT))
         self.write("core/a.cpp", "int a();\n")
         self.assertEqual(format_check.unformatted(self.root, CLANG_FORMAT), "")
+
+
+class Assets(Planted):
+    def test_a_model_that_its_script_would_not_make_is_found(self):
+        for name in ["same", "changed", "new"]:
+            self.write(f"made/lab/{name}.glb", name)
+        self.write("assets/lab/same.glb", "same")
+        self.write("assets/lab/changed.glb", "by hand")
+        self.write("assets/wiimote/eeprom.bin", "of no script")
+        self.assertEqual(assets.differing(self.root / "made", self.root / "assets"),
+                         [Path("lab/changed.glb"), Path("lab/new.glb")])
 
 
 class Skips(Planted):

@@ -1,7 +1,8 @@
-"""Makes the models in assets/: python3 tools/make_assets [show] [lab] [head] [body] [wiimote]. Same
-bytes each time.
+"""Makes the models in assets/, the same bytes each time (tests/checks/assets.py):
+python3 tools/make_assets [--out FOLDER] [show] [lab] [head] [body] [wiimote]
 """
 
+import argparse
 import pathlib
 import sys
 
@@ -21,15 +22,19 @@ MODELS = {
 }
 
 
-def main(wanted):
-    unknown = [name for name in wanted if name not in MODELS]
+def main():
+    parser = argparse.ArgumentParser(prog="make_assets")
+    parser.add_argument("--out", type=pathlib.Path, default=ASSETS, help="default: assets/")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(MODELS))
+    asked = parser.parse_args()
+    unknown = [name for name in asked.names if name not in MODELS]
     if unknown:
         sys.exit(f"make_assets: '{unknown[0]}' is none of {', '.join(MODELS)}")
-    for name in wanted or MODELS:
+    for name in asked.names or MODELS:
         make, file = MODELS[name]
-        (ASSETS / file).parent.mkdir(parents=True, exist_ok=True)
-        make(ASSETS / file)
+        (asked.out / file).parent.mkdir(parents=True, exist_ok=True)
+        make(asked.out / file)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
