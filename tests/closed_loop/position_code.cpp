@@ -10,6 +10,9 @@ namespace {
 /// Patches are culled one by one.
 constexpr double kPatch_m = 1;
 
+/// Seen under a small angle, through the outer tiles, by an eye close to the wall.
+constexpr double kSideCell_m = 0.1;
+
 /// A flat surface of whole cells: a cell's corner is origin + cell_m * (u * across + v * up).
 struct Surface {
   Eigen::Vector3d origin_in_wall;
@@ -83,11 +86,14 @@ Scene position_coded_scene(double cell_m) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
   const Eigen::Vector3d slanted = Eigen::Vector3d(1, 0, 1).normalized();
   const auto add = [&](const Surface& surface) { add_surface(surface, cell_m, scene); };
-  add({{-12, -6, -2.0}, x, y, 24, 12, 40});         // behind everything
+  add({{-12, -8, -2.0}, x, y, 24, 16, 40});         // behind everything
   add({{-1.5, -0.9, -0.8}, x, y, 1.25, 1.75, 90});  // half as deep
   add({{0.4, -0.5, 0.0}, x, y, 0.75, 0.75, 140});   // in the screen plane
   add({{-0.5, 0.1, 0.15}, x, y, 0.5, 0.5, 190});    // before it
   add({{1.2, -1.0, -0.9}, slanted, y, 1, 2, 240});  // slanted through depth
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  add_surface({{-12, -8, -2}, z, y, 3, 16, 15}, kSideCell_m, scene);  // to the left, as far as it
+  add_surface({{12, -8, -2}, z, y, 3, 16, 65}, kSideCell_m, scene);   // is seen, and to the right
   return scene;
 }
 

@@ -67,17 +67,15 @@ TEST(ClosedLoopOfTheProgram, RenderedTilesShowWhatTheEyeSees) {
   const auto surface = make_headless_surface();
   const SceneRenderer reference(Style::unlit);
   const GpuScene scene = uploaded(pack(code), Look{Style::unlit});
-  Displacements found;
-  for (const char* name : {"tile-0-0", "tile-3-1", "tile-5-2", "tile-6-3"}) {
-    const Image drawn = read_png((folder / (std::string(name) + ".png")).string());
-    found.append(displacements(
-        drawn, reference_of_tile(*site.wall.find(name), {-0.7, 0.3, 1.6}, reference, scene)));
+  for (const std::string name : {"tile-0-0", "tile-3-1", "tile-5-2", "tile-6-3"}) {
+    const Displacements found =
+        displacements(read_png((folder / (name + ".png")).string()),
+                      reference_of_tile(*site.wall.find(name), {-0.7, 0.3, 1.6}, reference, scene));
+    std::printf("  vindu render, %s: mean %.3f px, p99 %.3f px over %.0f %% of the pixels\n",
+                name.c_str(), found.mean_px(), found.quantile_px(0.99),
+                100 * found.readable_share());
+    EXPECT_TRUE(shows_what_the_eye_sees(found)) << name;
   }
-  std::printf("  vindu render: mean %.3f px, p99 %.3f px over %.0f %% of the pixels\n",
-              found.mean_px(), found.quantile_px(0.99), 100 * found.read_share());
-  EXPECT_GT(found.read_share(), 0.5);
-  EXPECT_LE(found.mean_px(), 0.5);
-  EXPECT_LE(found.quantile_px(0.99), 1.0);
   fs::remove_all(folder);
 }
 
