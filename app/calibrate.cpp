@@ -125,7 +125,8 @@ void add_calibrate_options(CLI::App& app, CalibrateOptions& options) {
   app.add_option("--from", options.from, "A recording, instead of live cameras")->type_name("FILE");
   app.add_option("--seconds", options.seconds, "Length (default: until Ctrl-C)")
       ->check(between(0.5, 1e6));
-  app.add_option("--seed", options.seed, "Of emulated cameras, and of where they truly stand");
+  app.add_option("--seed", options.seed, "Of emulated cameras, and of where they truly stand")
+      ->capture_default_str();
   app.add_option("--noise-px", options.noise_px, "Of emulated cameras (default: 0.6)")
       ->check(between(0.0, 20.0));
   app.add_flag("--json", options.json, "Figures as JSON");
@@ -174,14 +175,11 @@ std::string layout_remark(const HeadConfig& head) {
 }
 
 double coverage_so_far(const Capture& capture, std::size_t camera, const Site& site) {
-  const CameraConfig& config = site.cameras[camera];
-  const bool video = config.source == CameraSource::video;
+  const Vec2 size_px = picture_size_px(site.cameras[camera]);
   Coverage coverage;
   for (const Observation& seen : capture.observations)
     if (static_cast<std::size_t>(seen.camera) == camera)
-      for (const Dot& dot : seen.dots)
-        coverage.add({dot.x_px, dot.y_px}, video ? config.video.width_px : kWiimoteWidth_px,
-                     video ? config.video.height_px : kWiimoteHeight_px);
+      for (const Dot& dot : seen.dots) coverage.add({dot.x_px, dot.y_px}, size_px.x(), size_px.y());
   return coverage.share();
 }
 
@@ -195,7 +193,13 @@ void add_calibrate(CLI::App& parent, Action& chosen) {
   add_calibrate_background(*app, chosen);
   add_calibrate_intrinsics(*app, chosen);
   add_calibrate_extrinsics(*app, chosen);
-  app->footer("\nvindu calibrate wand finds cameras and lenses at once, from a waved wand.\n");
+  app->footer(
+      "\nvindu calibrate wand finds cameras and lenses at once, from a waved wand.\n"
+      "\nExamples, in the order of a new site:\n"
+      "  vindu calibrate background --wall wall.toml\n"
+      "  vindu calibrate wand --wall wall.toml\n"
+      "  vindu calibrate wall --wall wall.toml\n"
+      "  vindu calibrate head --wall wall.toml\n");
 }
 
 }  // namespace vindu::app

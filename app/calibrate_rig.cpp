@@ -208,8 +208,9 @@ void add_calibrate_extrinsics(CLI::App& calibrate, Action& chosen) {
                   "Its turn about the vertical; 0: its LEDs face away from the wall")
       ->check(between(-360.0, 360.0));
   app->footer(
-      "\nExample:\n"
-      "  vindu calibrate extrinsics --wall wall.toml --rig-at 0,1.5,1.5 --spacing-mm 300\n");
+      "\nExamples:\n"
+      "  vindu calibrate extrinsics --wall wall.toml --rig-at 0,1.5,1.5 --spacing-mm 300\n"
+      "  vindu calibrate extrinsics --wall wall.toml --camera left --rig-heading-deg 20\n");
   app->callback([command, &chosen] { chosen = [command] { return extrinsics(*command); }; });
 }
 

@@ -176,7 +176,10 @@ void add_calibrate_wall(CLI::App& calibrate, Action& chosen) {
   app->add_option("--draw", command->draw,
                   "Pictures of what the wall shows, instead of a window: touch-N.png, wall-N.png")
       ->type_name("DIR");
-  app->footer("\nExample, after a wand calibration:\n  vindu calibrate wall --wall wall.toml\n");
+  app->footer(
+      "\nExamples, after a wand calibration:\n"
+      "  vindu calibrate wall --wall wall.toml\n"
+      "  vindu calibrate wall --wall wall.toml --targets 8 --draw pictures\n");
   app->callback([command, &chosen] { chosen = [command] { return calibrate_wall(*command); }; });
 }
 

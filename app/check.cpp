@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/calibrate.h"
+#include "app/cameras.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/site_json.h"
@@ -40,8 +41,9 @@ std::string shown(const std::optional<CalibrationNote>& note) {
 
 void print_wall(const Site& site) {
   const Wall& wall = site.wall;
-  std::printf("%zu tiles, %d x %d, %.3f x %.3f m; corners in wall, metres\n", wall.tiles.size(),
-              wall.grid.columns, wall.grid.rows, wall.grid.width_m, wall.grid.height_m);
+  std::printf("%zu %s, %d x %d, %.3f x %.3f m; corners in wall, metres\n", wall.tiles.size(),
+              wall.tiles.size() == 1 ? "tile" : "tiles", wall.grid.columns, wall.grid.rows,
+              wall.grid.width_m, wall.grid.height_m);
   for (const Tile& tile : wall.tiles) {
     const TileCorners& corners = tile.corners;
     std::string mount = tile.mount.mirror ? "  mirrored" : "";
@@ -144,7 +146,7 @@ void draw_camera(Drawing& drawing, const CameraConfig& camera, double down_m) {
   };
   const Intrinsics& lens = camera.intrinsics;
   const Vec3 place = camera.room_from_camera.translation;
-  for (const double edge_px : {0.0, 1024.0}) {
+  for (const double edge_px : {0.0, picture_size_px(camera).x()}) {
     const Vec3 ray =
         camera.room_from_camera.rotation * Vec3((edge_px - lens.cx_px) / lens.fx_px, 0, 1);
     drawing.line(plan(place), plan(place + 4.5 * ray), "#d08a2e", 0.01);

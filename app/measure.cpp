@@ -71,6 +71,7 @@ void add_measure(CLI::App& parent, Action& chosen) {
   CLI::App* app = parent.add_subcommand("measure", "How good it is, in figures");
   app->require_subcommand(1);
   add_accuracy(*app, chosen);
+  app->footer("\nExamples:\n  vindu measure accuracy\n  vindu measure accuracy --quick --json\n");
 }
 
 }  // namespace vindu::app

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "app/cameras.h"
 #include "renderer/diagram.h"
 
 namespace vindu::app {
@@ -125,12 +126,6 @@ class Panel {
 using Flat = std::function<Vec2(const Vec3&)>;
 Vec2 from_above(const Vec3& x_in_room) { return {x_in_room.x(), x_in_room.z()}; }
 Vec2 from_aside(const Vec3& x_in_room) { return {x_in_room.z(), x_in_room.y()}; }
-
-Vec2 picture_size_px(const CameraConfig& camera) {
-  if (camera.source == CameraSource::video)
-    return Vec2(camera.video.width_px, camera.video.height_px);
-  return {kWiimoteWidth_px, kWiimoteHeight_px};
-}
 
 /// The middles of two opposite edges of the picture: left and right, or above and below.
 std::array<Vec3, 2> sight_edges(const CameraConfig& camera, bool across) {

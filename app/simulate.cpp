@@ -375,7 +375,8 @@ void add_simulate(CLI::App& parent, Action& chosen) {
   app->add_option("--scale", options->scale,
                   "Pixels per pixel of the wall (default: what this machine draws fluidly)")
       ->check(between(0.005, 4.0));
-  app->add_option("--seed", options->seed, "Of the walk and of the cameras' noise");
+  app->add_option("--seed", options->seed, "Of the walk and of the cameras' noise")
+      ->capture_default_str();
   app->add_option("--noise-px", options->noise_px, "Noise of the emulated cameras")
       ->check(between(0.0, 20.0));
   add_emulation(*app, options->emulation);

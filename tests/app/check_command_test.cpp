@@ -1,4 +1,8 @@
 // vindu check: the expanded wall, its drawing, and all errors of a wall file at once.
+#include <array>
+#include <cmath>
+#include <cstdio>
+
 #include "tests/app/process.h"
 
 namespace vindu {
@@ -40,6 +44,50 @@ TEST_F(CheckCommand, DrawsTheWall) {
   const std::string svg = bytes_of(path("wall.svg"));
   EXPECT_THAT(svg, AllOf(::testing::StartsWith("<svg"), HasSubstr("</svg>"), HasSubstr("tile-6-3"),
                          HasSubstr("default eye")));
+}
+
+/// A camera's field of view in the drawing: two lines from where it stands.
+std::vector<std::array<double, 4>> sight_lines(const std::string& svg) {
+  std::vector<std::array<double, 4>> lines;
+  for (const std::string& line : lines_of(svg)) {
+    std::array<double, 4> ends{};
+    if (line.find("#d08a2e") != std::string::npos &&
+        std::sscanf(line.c_str(), "<line x1='%lf' y1='%lf' x2='%lf' y2='%lf'", &ends[0], &ends[1],
+                    &ends[2], &ends[3]) == 4)
+      lines.push_back(ends);
+  }
+  return lines;
+}
+
+TEST_F(CheckCommand, DrawsWhatAVideoCameraSeesToBothSidesAlike) {
+  const std::string file = write("wall.toml", R"([wall]
+columns = 1
+rows = 1
+width_m = 2.0
+height_m = 0.5
+tile_width_px = 40
+tile_height_px = 20
+
+[[camera]]
+name = "middle"
+source = "video"
+file = "frames/%04d.png"
+width_px = 640
+height_px = 480
+position_m = [0, 2, 0]
+look_at_m = [0, 1.5, 3]
+focal_px = 600
+centre_px = [320, 240]
+)");
+  const ProcessResult result = vindu({"check", file, "--draw", path("wall.svg")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("1 tile, 1 x 1"));
+  const auto lines = sight_lines(bytes_of(path("wall.svg")));
+  ASSERT_THAT(lines, SizeIs(2));
+  for (const auto& [from_x, from_y, to_x, to_y] : lines) EXPECT_EQ(from_x, 0);
+  EXPECT_NEAR(lines[0][2], -lines[1][2], 0.01);
+  // 320 pixels aside at a focal length of 600, 4.5 m deep, 200 units a metre.
+  EXPECT_NEAR(std::abs(lines[0][2]), 200 * 4.5 * 320 / 600, 0.01);
 }
 
 TEST_F(CheckCommand, FailsWhereTheDrawingCannotBeWritten) {
