@@ -12,12 +12,6 @@ using ::testing::IsEmpty;
 
 using PlanCommand = AppTest;
 
-/// The first number after a key of JSON.
-double number_after(const std::string& json, const std::string& key, std::size_t from = 0) {
-  const std::size_t at = json.find("\"" + key + "\":", from);
-  return at == std::string::npos ? -1 : std::stod(json.substr(at + key.size() + 3));
-}
-
 TEST_F(PlanCommand, SaysHowMuchOfTheAreaTheThesisCamerasCover) {
   const ProcessResult result = vindu({"plan", "--out", path("plan.png")});
   EXPECT_EQ(result.exit_code, 0);

@@ -159,6 +159,11 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+double number_after(const std::string& json, const std::string& key, std::size_t from) {
+  const std::size_t at = json.find("\"" + key + "\":", from);
+  return at == std::string::npos ? -1 : std::stod(json.substr(at + key.size() + 3));
+}
+
 std::string small_model() { return "/usr/share/assimp/models/OBJ/box.obj"; }
 
 VirtualDisplay::VirtualDisplay() {

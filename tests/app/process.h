@@ -45,6 +45,9 @@ std::string bytes_of(const std::string& file);
 
 std::vector<std::string> lines_of(const std::string& text);
 
+/// The first number after a key of JSON, from a place on; -1 where there is no such key.
+double number_after(const std::string& json, const std::string& key, std::size_t from = 0);
+
 /// A model whose import takes no time.
 std::string small_model();
 

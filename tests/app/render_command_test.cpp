@@ -144,10 +144,33 @@ TEST_F(RenderCommand, NamesTheTilesThereAreForOneThatIsNot) {
   EXPECT_THAT(files_in("out"), IsEmpty());
 }
 
-TEST_F(RenderCommand, TakesAnEyeToTheLeft) {
-  EXPECT_EQ(render({"--eye", "-1,0,2", "--out", path("left")}).exit_code, 0);
-  EXPECT_EQ(render({"--eye=1,0,2", "--out", path("right")}).exit_code, 0);
-  EXPECT_NE(bytes_of(path("left/wall.png")), bytes_of(path("right/wall.png")));
+/// The middle column of what is not black.
+double middle_px(const Image& picture) {
+  double sum = 0, count = 0;
+  for (int y = 0; y < picture.height_px; ++y)
+    for (int x = 0; x < picture.width_px; ++x)
+      if (picture.at(x, y) != Rgba8{0, 0, 0, 255}) {
+        sum += x;
+        ++count;
+      }
+  return sum / count;
+}
+
+TEST_F(RenderCommand, ShowsTheBoxBehindTheWallOnTheSideOfTheEye) {
+  const auto seen = [&](const std::string& eye) {
+    EXPECT_EQ(render({"--unlit", eye}).exit_code, 0);
+    return read_png(path("out/wall.png"));
+  };
+  const Image from_left = seen("--eye=-1,0,2"), from_right = seen("--eye=1,0,2");
+  const double middle = 0.5 * (from_left.width_px - 1);
+  EXPECT_LT(middle_px(from_left), middle - 0.5);
+  EXPECT_NEAR(middle_px(from_right), 2 * middle - middle_px(from_left), 0.01);
+}
+
+TEST_F(RenderCommand, TakesAnEyeToTheLeftAsAWordOfItsOwn) {
+  EXPECT_EQ(render({"--eye", "-1,0,2", "--out", path("a")}).exit_code, 0);
+  EXPECT_EQ(render({"--eye=-1,0,2", "--out", path("b")}).exit_code, 0);
+  EXPECT_EQ(bytes_of(path("a/wall.png")), bytes_of(path("b/wall.png")));
 }
 
 TEST_F(RenderCommand, IsBlackForAnEyeBehindTheWallAndSaysSo) {
