@@ -63,6 +63,7 @@ std::unique_ptr<ObservationSource> Cameras::open_live(HidBus& bus, const std::st
   LiveWiimoteOptions live{.camera = number,
                           .name = camera.name,
                           .address = address,
+                          .path = {},
                           .settings = wiimote_settings(camera, number),
                           .on_sample = {},
                           .tap = {}};

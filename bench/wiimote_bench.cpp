@@ -154,6 +154,7 @@ double driver_share() {
                                                      LiveWiimoteOptions{.camera = i,
                                                                         .name = "bench",
                                                                         .address = {},
+                                                                        .path = {},
                                                                         .settings = {},
                                                                         .on_sample = {},
                                                                         .tap = {}}));

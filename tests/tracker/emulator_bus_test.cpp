@@ -121,13 +121,27 @@ TEST_F(EmulatedBusTest, says_why_a_device_cannot_be_opened) {
 }
 
 TEST_F(EmulatedBusTest, a_dolphin_bar_has_four_slots_of_which_the_empty_ones_refuse) {
-  bus_.add_dolphin_bar(1, nothing_seen);
+  bus_.add_dolphin_bar({nothing_seen});
   ASSERT_EQ(bus_.list().size(), 4u);
+  for (const HidInfo& slot : bus_.list()) EXPECT_EQ(slot.address, "");
   const auto held = open(0), empty = open(3);
   EXPECT_TRUE(write(*held, "15 00"));
   EXPECT_FALSE(write(*empty, "15 00"));
   EXPECT_THAT(read(*held, milliseconds(50)), ::testing::SizeIs(1));
   EXPECT_THAT(read(*empty, milliseconds(50)), IsEmpty());
+}
+
+TEST_F(EmulatedBusTest, a_slot_stays_open_and_at_its_place_when_its_wiimote_goes_and_comes) {
+  bus_.add_dolphin_bar({nothing_seen});
+  const auto slot = open(0);
+  bus_.device(0).unplug();
+  EXPECT_EQ(bus_.list().size(), 4u);
+  EXPECT_THAT(read(*slot, milliseconds(50)), IsEmpty());
+  EXPECT_FALSE(write(*slot, "15 00"));
+  bus_.device(0).plug_in();
+  EXPECT_EQ(bus_.path(0), "/dev/hidraw0");
+  EXPECT_TRUE(write(*slot, "15 00"));
+  EXPECT_THAT(read(*slot, milliseconds(50)), ElementsAre("20 00 00 00 00 00 c0"));
 }
 
 TEST_F(EmulatedBusTest, an_unplugged_device_is_gone_for_its_reader_and_returns_at_another_path) {

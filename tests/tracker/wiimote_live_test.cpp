@@ -32,8 +32,13 @@ class LiveWiimoteTest : public ::testing::Test {
     return bus_.add(std::move(options), dot_at(x_px));
   }
   LiveWiimoteOptions named(const std::string& name, const std::string& address = {}) {
-    return {
-        .camera = 0, .name = name, .address = address, .settings = {}, .on_sample = {}, .tap = {}};
+    return {.camera = 0,
+            .name = name,
+            .address = address,
+            .path = {},
+            .settings = {},
+            .on_sample = {},
+            .tap = {}};
   }
   /// Waits until it holds; a test that waits for ten seconds has failed.
   bool eventually(const std::function<bool()>& holds) {
@@ -113,16 +118,14 @@ TEST_F(LiveWiimoteTest, WarnsOfEmptyBatteries) {
 
 TEST_F(LiveWiimoteTest, SkipsTheEmptySlotsOfAnAdapterAndOtherControllers) {
   bus_.add_strangers();
-  bus_.add_dolphin_bar(1, dot_at(100));
+  bus_.add_dolphin_bar({dot_at(100)});
   LiveWiimote left(bus_, clock_, claims_, named("left"));
   EXPECT_EQ(dot_of(left), 100);
 }
 
-TEST_F(LiveWiimoteTest, PassesByAnEmptySlotThatComesFirst) {
-  EmulatedDeviceOptions empty;
-  empty.info.name = "Mayflash Wiimote PC Adapter";
-  empty.empty_slot = true;
-  add(100, empty), add(100, empty), add(200);
+TEST_F(LiveWiimoteTest, PassesByEmptySlotsThatComeFirst) {
+  bus_.add_dolphin_bar({});
+  add(200);
   LiveWiimote left(bus_, clock_, claims_, named("left"));
   EXPECT_EQ(dot_of(left), 200);
 }
@@ -141,6 +144,32 @@ TEST_F(LiveWiimoteTest, StaysWithItsDeviceWhenTheyComeBackInAnotherOrder) {
   second.plug_in();
   ASSERT_EQ(dot_of(right), 200);
   first.plug_in();
+  EXPECT_EQ(dot_of(left), 100);
+}
+
+TEST_F(LiveWiimoteTest, TakesTheSlotOfItsPathAlone) {
+  bus_.add_dolphin_bar({dot_at(100), dot_at(200)});
+  LiveWiimoteOptions second = named("right");
+  second.path = bus_.path(1);
+  LiveWiimote right(bus_, clock_, claims_, second);
+  EXPECT_EQ(dot_of(right), 200);
+}
+
+TEST_F(LiveWiimoteTest, StaysWithItsSlotWhenTheWiimotesOfAnAdapterComeBackInAnotherOrder) {
+  bus_.add_dolphin_bar({dot_at(100), dot_at(200)});
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  ASSERT_EQ(dot_of(left), 100);
+  LiveWiimote right(bus_, clock_, claims_, named("right"));
+  ASSERT_EQ(dot_of(right), 200);
+  bus_.device(0).unplug(), bus_.device(1).unplug();
+  ASSERT_TRUE(eventually([&] { return left.gone() && right.gone(); }));
+  for (LiveWiimote* wiimote : {&left, &right})
+    while (wiimote->next(clock_.now())) continue;
+  bus_.device(1).plug_in();
+  ASSERT_EQ(dot_of(right), 200);
+  EXPECT_TRUE(left.gone());
+  EXPECT_THAT(left.state().trouble, HasSubstr("/dev/hidraw0 is not connected: press a button"));
+  bus_.device(0).plug_in();
   EXPECT_EQ(dot_of(left), 100);
 }
 
@@ -169,8 +198,9 @@ TEST(FindWiimotes, KnowsThemByIdOrNameAndLeavesOthers) {
   EXPECT_EQ(kind_of(info(0x0306, "Nintendo RVL-CNT-01", "00:1f")), WiimoteKind::classic);
   EXPECT_EQ(kind_of(info(0x0330, "Nintendo RVL-CNT-01-TR", "00:1f")), WiimoteKind::tr);
   EXPECT_EQ(kind_of(info(0x9999, "Nintendo RVL-CNT-01", "00:1f")), WiimoteKind::classic);
-  EXPECT_EQ(kind_of(info(0x0330, "", "00:1f")), WiimoteKind::tr);
+  EXPECT_EQ(kind_of(info(0x0330, "", "00:1f:c5:1b:3a:b1")), WiimoteKind::tr);
   EXPECT_EQ(kind_of(info(0x0306, "Mayflash Wiimote PC Adapter", "")), WiimoteKind::adapter);
+  EXPECT_EQ(kind_of(info(0x0306, "Mayflash Wiimote PC Adapter", "STI0CF7A")), WiimoteKind::adapter);
   EXPECT_EQ(kind_of(info(0x0306, "Nintendo RVL-WBC-01", "00:1f")), WiimoteKind::none);
   EXPECT_EQ(kind_of(info(0x0330, "Nintendo RVL-CNT-01-UC", "00:1f")), WiimoteKind::none);
   EXPECT_EQ(kind_of(info(0x2009, "Pro Controller", "00:1f")), WiimoteKind::none);

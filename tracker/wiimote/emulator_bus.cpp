@@ -13,6 +13,7 @@ constexpr std::uint16_t kNintendo = 0x057e;
 constexpr std::uint16_t kWiimote = 0x0306;
 constexpr std::uint16_t kWiimotePlus = 0x0330;
 constexpr std::size_t kMostDevices = 16;
+constexpr std::size_t kSlots = 4;          // of a DolphinBar
 constexpr std::size_t kShortestWrite = 2;  // hidraw takes no less
 
 // While nothing is due the device is looked at this often: another thread may do something to it.
@@ -23,6 +24,8 @@ std::string made_up_address(std::size_t index) {
   std::snprintf(text, sizeof text, "00:1f:c5:00:00:%02x", static_cast<unsigned>(index % 256));
   return text;
 }
+
+SensorView nothing_in_view(Time) { return {}; }
 
 }  // namespace
 
@@ -38,17 +41,21 @@ EmulatedDevice& EmulatedHidBus::add(EmulatedDeviceOptions options, WiimoteEmulat
   if (options.info.name.empty())
     options.info =
         wiimote_info(options.firmware.motion_plus ? kWiimotePlus : kWiimote, options.info.address);
-  if (options.info.address.empty()) options.info.address = made_up_address(devices_.size());
+  if (options.info.address.empty() && !options.slot)
+    options.info.address = made_up_address(devices_.size());
   return *devices_.emplace_back(
       std::make_unique<EmulatedDevice>(std::move(options), std::move(look), clock_));
 }
 
-void EmulatedHidBus::add_dolphin_bar(int wiimotes, const WiimoteEmulator::Look& look) {
-  for (int slot = 0; slot < 4; ++slot) {
+void EmulatedHidBus::add_dolphin_bar(const std::vector<WiimoteEmulator::Look>& wiimotes) {
+  assert(wiimotes.size() <= kSlots);
+  for (std::size_t slot = 0; slot < kSlots; ++slot) {
     EmulatedDeviceOptions options;
-    options.info = {"", kNintendo, kWiimote, "Mayflash Wiimote PC Adapter", std::to_string(slot)};
-    options.empty_slot = slot >= wiimotes;
-    add(std::move(options), look);
+    options.info = {"", kNintendo, kWiimote, "Mayflash Wiimote PC Adapter", ""};
+    options.slot = true;
+    const bool held = slot < wiimotes.size();
+    EmulatedDevice& device = add(std::move(options), held ? wiimotes[slot] : nothing_in_view);
+    if (!held) device.unplug();
   }
 }
 
@@ -56,14 +63,16 @@ void EmulatedHidBus::add_strangers() {
   const auto add_one = [&](const char* name, std::uint16_t product_id) {
     EmulatedDeviceOptions options;
     options.info = {"", kNintendo, product_id, name, ""};
-    add(std::move(options), [](Time) { return SensorView{}; });
+    add(std::move(options), nothing_in_view);
   };
   add_one("Nintendo RVL-WBC-01", kWiimote);
   add_one("Nintendo RVL-CNT-01-UC", kWiimotePlus);
 }
 
 std::string EmulatedHidBus::path(std::size_t index) {
-  const auto number = index + kMostDevices * static_cast<std::size_t>(device(index).connections());
+  EmulatedDevice& device = *devices_.at(index);
+  const int moves = device.options().slot ? 0 : device.connections();
+  const auto number = index + kMostDevices * static_cast<std::size_t>(moves);
   return "/dev/hidraw" + std::to_string(number);
 }
 
@@ -91,7 +100,7 @@ EmulatedHandle::EmulatedHandle(EmulatedDevice& device, Clock& clock)
     : device_(device), clock_(clock) {
   device_.at_present([&](Time) {
     device_.listeners_.push_back(&listener_);
-    listener_.gone = !device_.firmware_ && !device_.options_.empty_slot;
+    listener_.gone = !device_.firmware_ && !device_.options_.slot;
   });
 }
 
@@ -122,9 +131,9 @@ HidRead EmulatedHandle::read(std::span<std::uint8_t> buffer, Time until) {
 }
 
 bool EmulatedHandle::write(std::span<const std::uint8_t> report) {
-  if (report.size() < kShortestWrite || device_.options_.empty_slot) return false;
+  if (report.size() < kShortestWrite) return false;
   return device_.at_present([&](Time now) {
-    if (listener_.gone) return false;
+    if (listener_.gone || !device_.firmware_) return false;
     device_.to_device_.push_back(
         {device_.link_.reaches_device(now), {report.begin(), report.end()}});
     return true;

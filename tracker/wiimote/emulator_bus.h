@@ -17,11 +17,12 @@ class EmulatedHidBus final : public HidBus {
  public:
   explicit EmulatedHidBus(Clock& clock) : clock_(clock) {}
 
-  /// Connects it; a name and an address are made up where the options have none. At most 16.
+  /// Connects it. Where the options have none, a name is made up, and an address but for a slot. At
+  /// most 16.
   EmulatedDevice& add(EmulatedDeviceOptions options, WiimoteEmulator::Look look);
 
-  /// Four slots on USB, of which so many hold a Wiimote.
-  void add_dolphin_bar(int wiimotes, const WiimoteEmulator::Look& look);
+  /// Four slots on USB, without addresses; the first hold these Wiimotes, the others none.
+  void add_dolphin_bar(const std::vector<WiimoteEmulator::Look>& wiimotes);
   /// Two that are none: a balance board and a Wii U Pro controller.
   void add_strangers();
 

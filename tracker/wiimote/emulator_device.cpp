@@ -11,7 +11,7 @@ EmulatedDevice::EmulatedDevice(EmulatedDeviceOptions options, WiimoteEmulator::L
       clock_(clock),
       random_(options_.seed ^ 0x2545f4914f6cdd1dULL),
       link_(options_.link, options_.seed) {
-  if (!options_.empty_slot) connect(clock_.now());
+  connect(clock_.now());
 }
 
 void EmulatedDevice::connect(Time at) {
@@ -30,6 +30,7 @@ void EmulatedDevice::disconnect() {
   kernel_.reset();
   to_device_.clear();
   on_the_way_.clear();
+  if (options_.slot) return;
   for (Listener* listener : listeners_) listener->gone = true;
 }
 
@@ -184,7 +185,7 @@ void EmulatedDevice::close_camera_node() {
 }
 
 bool EmulatedDevice::connected() {
-  return at_present([&](Time) { return firmware_.has_value() || options_.empty_slot; });
+  return at_present([&](Time) { return firmware_.has_value() || options_.slot; });
 }
 
 std::uint8_t EmulatedDevice::leds() {

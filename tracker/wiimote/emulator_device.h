@@ -25,8 +25,8 @@ struct EmulatedDeviceOptions {
   LinkOptions link;
   std::optional<KernelOptions> kernel;  ///< hid-wiimote at work beside us
   bool permitted = true;                ///< may be opened
-  bool empty_slot = false;  ///< of a DolphinBar: opens, never answers, refuses what is written
-  std::size_t ring = 64;    ///< reports that hidraw keeps for a reader, then it drops; 0: all
+  bool slot = false;      ///< of a DolphinBar: stays where it is, and refuses writes while empty
+  std::size_t ring = 64;  ///< reports that hidraw keeps for a reader, then it drops; 0: all
   std::uint64_t seed = 1;
 };
 
@@ -50,7 +50,8 @@ class EmulatedDevice {
   void send_garbage(int reports);
   void plug_extension(bool plugged);
   void set_battery(std::uint8_t level);  ///< 0: dies, and the connection with it
-  /// Open handles are gone for good; what returns is switched on anew, at another path.
+  /// Open handles are gone for good; what returns is switched on anew, at another path. A slot is
+  /// left empty instead, and keeps its handles and its path.
   void unplug();
   void plug_in();
   void unplug_at(Time time);

@@ -2,11 +2,24 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <tuple>
 
 #include "tracker/wiimote/commands.h"
 
 namespace vindu {
+namespace {
+
+/// "00:1f:c5:1b:3a:b1"
+bool is_bluetooth_address(const std::string& text) {
+  if (text.size() != 17) return false;
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (at % 3 == 2 ? text[at] != ':' : !std::isxdigit(static_cast<unsigned char>(text[at])))
+      return false;
+  return true;
+}
+
+}  // namespace
 
 WiimoteKind kind_of(const HidInfo& info) {
   constexpr std::uint16_t kNintendo = 0x057e, kLego = 0x054c;
@@ -19,16 +32,22 @@ WiimoteKind kind_of(const HidInfo& info) {
                         (info.product_id == kClassic || info.product_id == kTr);
   if (!known_id) return WiimoteKind::none;
   // Bluetooth's serial number is the device's address; an adapter has none of its slots'.
-  if (info.address.empty()) return WiimoteKind::adapter;
+  if (!is_bluetooth_address(info.address)) return WiimoteKind::adapter;
   return info.product_id == kTr ? WiimoteKind::tr : WiimoteKind::classic;
 }
 
 std::vector<HidInfo> find_wiimotes(HidBus& bus) {
   std::vector<HidInfo> found = bus.list();
   std::erase_if(found, [](const HidInfo& info) { return kind_of(info) == WiimoteKind::none; });
+  for (HidInfo& info : found)
+    if (kind_of(info) == WiimoteKind::adapter) info.address.clear();
   std::ranges::sort(found, {},
                     [](const HidInfo& info) { return std::tie(info.address, info.path); });
   return found;
+}
+
+const std::string& label_of(const HidInfo& info) {
+  return info.address.empty() ? info.path : info.address;
 }
 
 std::optional<StatusReport> probe(HidDevice& device, Clock& clock, Duration patience) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tracker/wiimote/hid_device.h"
@@ -26,8 +27,12 @@ constexpr const char* name_of(WiimoteKind kind) {
 /// which share these ids.
 WiimoteKind kind_of(const HidInfo& info);
 
-/// All of them, in order of address, then path.
+/// All of them, in order of address, then path. Slots have no address, whatever serial number their
+/// adapter has for all of them.
 std::vector<HidInfo> find_wiimotes(HidBus& bus);
+
+/// How people name it: its address, or its path where it has none.
+const std::string& label_of(const HidInfo& info);
 
 /// Asks for the status, as proof of life; empty when no answer comes in time. A device that is
 /// streaming to somebody else stops for a moment.

@@ -43,7 +43,7 @@ LiveWiimote::LiveWiimote(HidBus& bus, Clock& clock, WiimoteClaims& claims,
       clock_(clock),
       claims_(claims),
       options_(options),
-      own_address_(options.address),
+      own_{.path = options.path, .name = {}, .address = options.address},
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::optional<Observation> LiveWiimote::next(Time until) {
@@ -73,7 +73,7 @@ void LiveWiimote::publish(bool connected, const std::string& trouble) {
   const std::lock_guard lock(mutex_);
   if (trouble != state_.trouble && !trouble.empty()) log_warning(options_.name, trouble);
   if (connected != state_.connected)
-    log_info(options_.name, connected ? "Wiimote " + device_.address + " is connected"
+    log_info(options_.name, connected ? "Wiimote " + label_of(device_) + " is connected"
                                       : "the Wiimote is gone; waiting for it");
   state_.connected = connected;
   state_.device = device_;
@@ -81,16 +81,27 @@ void LiveWiimote::publish(bool connected, const std::string& trouble) {
   if (reader_) state_.health = reader_->session().health();
 }
 
-/// The device of the wanted address, or the first that can be had and has not yet been tried in
-/// vain; null with what hinders it. Once dots came from a device its address is the wanted one:
-/// two cameras must not change places because their devices came back in another order.
+bool LiveWiimote::wanted(const HidInfo& found) const {
+  if (!own_.address.empty()) return same_address(found.address, own_.address);
+  return own_.path.empty() || found.path == own_.path;
+}
+
+/// Two cameras must not change places because their devices came back in another order. A slot of
+/// an adapter is known by its path; others come back at any.
+void LiveWiimote::stay_with(const HidInfo& device) {
+  own_ = device;
+  if (kind_of(device) != WiimoteKind::adapter) own_.path.clear();
+}
+
+/// The wanted device, or the first that can be had and has not yet been tried in vain; null with
+/// what hinders it.
 std::unique_ptr<HidDevice> LiveWiimote::find_device(std::string& trouble) {
-  const bool any = own_address_.empty();
+  const bool any = own_.address.empty() && own_.path.empty();
   trouble =
       any ? "no Wiimote is connected: press a button on a paired one, or run vindu wiimote pair"
-          : "the Wiimote " + own_address_ + " is not connected: press a button on it";
+          : "the Wiimote " + label_of(own_) + " is not connected: press a button on it";
   for (const HidInfo& found : find_wiimotes(bus_)) {
-    if (!any && !same_address(found.address, own_address_)) continue;
+    if (!wanted(found)) continue;
     if (fruitless_.contains(found.path) || !claims_.claim(found.path)) continue;
     try {
       std::unique_ptr<HidDevice> device = bus_.open(found.path);
@@ -128,7 +139,7 @@ bool LiveWiimote::read_until_gone(const std::stop_token& stop) {
       if (const auto observation = reader_->observation_of(*sample)) hand_over(*observation);
     }
     if (now - heard > kReopen) return any;
-    if (now - published < kPublish) continue;
+    if (reader_->refuses() || now - published < kPublish) continue;
     published = now;
     publish(true, trouble_of(reader_->session()));
   }
@@ -145,12 +156,11 @@ void LiveWiimote::run(const std::stop_token& stop) {
       else
         reader_.emplace(std::move(device), options_.camera, options_.settings);
       if (read_until_gone(stop))
-        own_address_ = device_.address;
+        stay_with(device_);
       else
         fruitless_.insert(device_.path);
-      trouble = reader_->refuses()
-                    ? "the device refuses commands: is it the empty slot of an adapter?"
-                    : reader_->session().health().trouble;
+      // What refuses commands is an empty slot: no Wiimote is connected there.
+      if (!reader_->refuses()) trouble = reader_->session().health().trouble;
       reader_->disconnect();
       claims_.release(device_.path);
     }

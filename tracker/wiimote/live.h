@@ -31,7 +31,8 @@ class WiimoteClaims {
 struct LiveWiimoteOptions {
   int camera = 0;       ///< index in the site's list
   std::string name;     ///< of the camera, for messages
-  std::string address;  ///< of the device; empty: the first that nobody else has
+  std::string address;  ///< of the device
+  std::string path;     ///< of the device, where it has no address; neither: the first that is free
   WiimoteSettings settings;
   std::function<void(const WiimoteSample&)> on_sample;  ///< called on the reader's thread
   /// What a device is put into when it was opened: a recorder.
@@ -65,6 +66,8 @@ class LiveWiimote final : public ObservationSource {
  private:
   void run(const std::stop_token& stop);
   std::unique_ptr<HidDevice> find_device(std::string& trouble);
+  bool wanted(const HidInfo& found) const;
+  void stay_with(const HidInfo& device);
   /// Whether any sample came.
   bool read_until_gone(const std::stop_token& stop);
   void wait(const std::stop_token& stop, Duration length);
@@ -77,7 +80,7 @@ class LiveWiimote final : public ObservationSource {
   LiveWiimoteOptions options_;
   std::optional<WiimoteReader> reader_;  // of the thread
   HidInfo device_;                       // of the thread; the last that was opened
-  std::string own_address_;              // of the thread; of the device that it stays with
+  HidInfo own_;                          // of the thread; address or path that it stays with
   std::set<std::string> fruitless_;      // of the thread; paths that gave nothing in this round
   std::atomic<bool> rumble_ = false;
   mutable std::mutex mutex_;  // guards what follows
