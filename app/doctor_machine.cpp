@@ -8,11 +8,13 @@
 
 #include "app/doctor.h"
 #include "app/wiimote.h"
+#include "app/wiimote_findings.h"
 #include "core/error.h"
 #include "renderer/resources.h"
 #include "renderer/scene_cache.h"
 #include "renderer/surface.h"
 #include "tracker/wiimote/bluez.h"
+#include "tracker/wiimote/find.h"
 
 namespace vindu::app {
 namespace {
@@ -118,7 +120,7 @@ void examine_all_wiimotes(Findings& findings) {
                           wiimote.forbidden          ? Health::bad
                           : wiimote.state == "ready" ? Health::good
                                                      : Health::note,
-                          wiimote.info.address + ": " + wiimote.state});
+                          label_of(wiimote.info) + ": " + wiimote.state});
     if (wiimotes.empty())
       findings.push_back({"wiimotes", Health::note, "none is known here", "vindu wiimote pair"});
     if (!view.trouble.empty()) findings.push_back({"bluetooth", Health::note, view.trouble});

@@ -1,14 +1,13 @@
 // vindu wiimote list and identify: which Wiimotes this machine has, how they are, what hinders
 // them; and which of them is which.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 
 #include "app/common.h"
 #include "app/wiimote.h"
+#include "app/wiimote_findings.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "tracker/wiimote/bluez.h"
@@ -17,27 +16,6 @@
 
 namespace vindu::app {
 namespace {
-
-WiimoteFinding examine(HidBus& bus, Clock& clock, const HidInfo& info) {
-  WiimoteFinding finding{.info = info};
-  const std::vector<std::string> holders = holders_of(info.path);
-  if (!holders.empty()) {
-    finding.state = fmt::format("in use by {}: end that first", fmt::join(holders, ", "));
-    return finding;
-  }
-  try {
-    const auto device = bus.open(info.path);
-    finding.status = probe(*device, clock, std::chrono::milliseconds(600));
-    if (!finding.status)
-      finding.state = kind_of(info) == WiimoteKind::adapter
-                          ? "an empty slot"
-                          : "does not answer: press a button on it, or take out its batteries";
-  } catch (const Error& error) {
-    finding.state = error.what();
-    finding.forbidden = true;
-  }
-  return finding;
-}
 
 std::string battery_text(const std::optional<StatusReport>& status) {
   if (!status) return "";
@@ -89,50 +67,23 @@ int list(bool emulated, bool json) {
 /// Rumbles and lets the LEDs run to and fro, then shows `number`.
 int identify(const std::string& which, bool emulated, double seconds) {
   WiimoteBus devices(emulated);
-  const HidInfo info = choose_wiimote(devices.bus(), which);
+  const auto [number, info] = choose_wiimote(devices.bus(), which);
   const auto device = devices.bus().open(info.path);
   constexpr std::array<int, 6> kRun = {1, 2, 4, 8, 4, 2};
   constexpr Duration kStep = std::chrono::milliseconds(150);
-  fmt::print("Wiimote {} rumbles and its LEDs run to and fro.\n", info.address);
+  fmt::print("Wiimote {} rumbles and its LEDs run to and fro.\n", label_of(info));
   const int steps = static_cast<int>(seconds / 0.15);
   for (int step = 0; step < steps; ++step) {
     const bool rumble = step % 6 < 3;
     if (!device->write(set_leds(kRun[static_cast<std::size_t>(step) % kRun.size()], rumble).span()))
-      throw Error({"takes no commands", info.address, "press a button on it and try again"});
+      throw Error({"takes no commands", label_of(info), "press a button on it and try again"});
     devices.clock().sleep_until(devices.clock().now() + kStep);
   }
-  const auto found = find_wiimotes(devices.bus());
-  const auto place = std::ranges::find(found, info.path, &HidInfo::path);
-  const int number = static_cast<int>(place - found.begin()) + 1;
   device->write(set_leds(player_leds(number), false).span());
   return 0;
 }
 
 }  // namespace
-
-std::vector<WiimoteFinding> examine_wiimotes(HidBus& bus, Clock& clock) {
-  std::vector<WiimoteFinding> findings;
-  for (const HidInfo& info : find_wiimotes(bus)) findings.push_back(examine(bus, clock, info));
-  return findings;
-}
-
-void add_bluetooth(const BluezView& view, std::vector<WiimoteFinding>& findings) {
-  for (const BluezDevice& known : view.wiimotes) {
-    const auto found = std::ranges::find_if(findings, [&](const WiimoteFinding& finding) {
-      return same_address(finding.info.address, known.address);
-    });
-    if (found != findings.end()) {
-      if (known.connected) found->adapter = known.adapter;
-      continue;
-    }
-    const char* state = !known.paired     ? "not bonded: vindu wiimote pair"
-                        : known.connected ? "connected, but no HID device: vindu wiimote pair"
-                                          : "bonded, not connected: press a button on it";
-    findings.push_back({.info = {"", 0x057e, 0x0306, known.name, known.address},
-                        .state = state,
-                        .adapter = known.adapter});
-  }
-}
 
 void add_wiimote_list(CLI::App& wiimote, Action& chosen) {
   struct Options {
@@ -143,6 +94,11 @@ void add_wiimote_list(CLI::App& wiimote, Action& chosen) {
       "list", "The connected Wiimotes: address, kind, battery, and what hinders them");
   add_emulated(*app, options->emulated);
   app->add_flag("--json", options->json, "A line of JSON a Wiimote");
+  app->footer(
+      "\nExamples:\n"
+      "  vindu wiimote list\n"
+      "  vindu wiimote list --json\n"
+      "  vindu wiimote list --emulated\n");
   app->callback([options, &chosen] {
     chosen = [options] { return list(options->emulated, options->json); };
   });
@@ -157,8 +113,14 @@ void add_wiimote_identify(CLI::App& wiimote, Action& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* app = wiimote.add_subcommand("identify", "Rumble one and let its LEDs run");
   app->add_option("WIIMOTE", options->which, "Number as list shows it, or address")->required();
-  app->add_option("--seconds", options->seconds, "How long")->check(between(0.2, 60.0));
+  app->add_option("--seconds", options->seconds, "How long (default: 3)")
+      ->check(between(0.2, 60.0));
   add_emulated(*app, options->emulated);
+  app->footer(
+      "\nExamples:\n"
+      "  vindu wiimote identify 2\n"
+      "  vindu wiimote identify 00:1f:c5:1b:3a:b1 --seconds 10\n"
+      "  vindu wiimote identify 1 --emulated\n");
   app->callback([options, &chosen] {
     chosen = [options] { return identify(options->which, options->emulated, options->seconds); };
   });

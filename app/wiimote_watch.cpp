@@ -10,8 +10,9 @@
 #include "app/common.h"
 #include "app/stop_signals.h"
 #include "app/wiimote.h"
+#include "app/wiimote_findings.h"
 #include "app/wiimote_screen.h"
-#include "core/error.h"
+#include "core/log.h"
 #include "renderer/scene_renderer.h"
 #include "renderer/surface.h"
 #include "tracker/wiimote/find.h"
@@ -75,16 +76,17 @@ std::string sample_json(int device, const WiimoteSample& sample) {
 /// One device and what it showed last. The reader's thread writes, the screen reads.
 class Watched {
  public:
-  Watched(WiimoteBus& devices, WiimoteClaims& claims, const HidInfo& info, int number,
+  Watched(WiimoteBus& devices, WiimoteClaims& claims, const NumberedWiimote& wiimote,
           const WatchOptions& options)
-      : title_(fmt::format("{}  {}", number, info.address.empty() ? info.path : info.address)),
+      : title_(fmt::format("{}  {}", wiimote.number, label_of(wiimote.info))),
         counted_at_(devices.clock().now()),
         live_(devices.bus(), devices.clock(), claims,
-              {.camera = number - 1,
-               .name = "Wiimote " + std::to_string(number),
-               .address = info.address,
-               .settings = settings_of(options, number),
-               .on_sample = [this, number, json = options.json](
+              {.camera = wiimote.number - 1,
+               .name = "Wiimote " + std::to_string(wiimote.number),
+               .address = wiimote.info.address,
+               .path = wiimote.info.path,
+               .settings = settings_of(options, wiimote.number),
+               .on_sample = [this, number = wiimote.number, json = options.json](
                                 const WiimoteSample& sample) { take(number, json, sample); },
                .tap = {}}) {}
 
@@ -117,21 +119,22 @@ class Watched {
   LiveWiimote live_;  // last: its thread uses the others
 };
 
-/// A window that shows pictures.
+/// A window that shows pictures of one size.
 class PictureWindow {
  public:
   explicit PictureWindow(SizePx size)
-      : window_(make_window({.size = size, .title = "Vindu: Wiimotes"})), renderer_(Style::unlit) {}
+      : window_(make_window({.size = size, .title = "Vindu: Wiimotes"})),
+        renderer_(Style::unlit),
+        picture_(size, Style::unlit) {}
+
+  SizePx picture_size() const { return picture_.size(); }
   /// False when it was closed.
   bool show(const Image& image) {
-    const SizePx size{image.width_px, image.height_px};
-    if (!picture_ || picture_->size() != size)
-      picture_ = std::make_unique<Picture>(size, Style::unlit);
-    picture_->write(image);
-    picture_->make_mipmaps();
+    picture_.write(image);
+    picture_.make_mipmaps();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, window_->size().width, window_->size().height);
-    renderer_.present(*picture_, {});
+    renderer_.present(picture_, {});
     window_->present();
     return !window_->close_wanted();
   }
@@ -139,50 +142,96 @@ class PictureWindow {
  private:
   std::unique_ptr<Window> window_;
   SceneRenderer renderer_;
-  std::unique_ptr<Picture> picture_;
+  Picture picture_;
 };
 
-std::vector<HidInfo> chosen_devices(HidBus& bus, const WatchOptions& options) {
-  if (options.which.empty()) {
-    std::vector<HidInfo> all = find_wiimotes(bus);
-    if (all.empty())
-      throw Error({"no Wiimote is connected", "this machine",
-                   "press a button on a paired one, or try --emulated"});
-    return all;
+/// Where people see them: the terminal, or a line a second where there is none, and a window where
+/// there is a display. Nowhere beside lines of JSON.
+class WatchScreen {
+ public:
+  WatchScreen(const WatchOptions& options, Time now)
+      : windowed_(!options.json && !options.no_window && has_display()),
+        terminal_(!options.json && isatty(STDOUT_FILENO)),
+        lines_(!options.json && !terminal_),
+        lines_at_(now) {}
+
+  /// False when its window was closed.
+  bool show(const std::vector<WatchedWiimote>& seen, Time now) {
+    if (terminal_ && !seen.empty()) fmt::print("\x1b[H\x1b[2J{}", screen_text(seen));
+    if (lines_ && now - lines_at_ >= std::chrono::seconds(1)) {
+      for (const WatchedWiimote& each : seen) fmt::print("{}  {}\n", each.title, summary_of(each));
+      lines_at_ = now;
+    }
+    std::fflush(stdout);
+    return !windowed_ || show_picture(screen_picture(seen));
   }
-  std::vector<HidInfo> found;
-  for (const std::string& which : options.which) found.push_back(choose_wiimote(bus, which));
-  return found;
-}
+
+ private:
+  bool show_picture(const Image& image) {
+    const SizePx size{image.width_px, image.height_px};
+    if (!window_ || window_->picture_size() != size) window_.emplace(size);
+    return window_->show(image);
+  }
+
+  bool windowed_, terminal_, lines_;
+  Time lines_at_;
+  std::optional<PictureWindow> window_;
+};
+
+/// The devices that are watched; where none was named, also those that connect later.
+class Watch {
+ public:
+  explicit Watch(const WatchOptions& options)
+      : options_(options), devices_(options.emulated, options.emulation) {
+    for (const std::string& which : options_.which) add(choose_wiimote(devices_.bus(), which));
+    look_for_more(now());
+    if (known_.empty())
+      log_warning("wiimote",
+                  "none is connected yet: press a button on a paired one, or try "
+                  "--emulated");
+  }
+
+  Time now() { return devices_.clock().now(); }
+
+  std::vector<WatchedWiimote> seen_at(Time now) {
+    if (now - looked_at_ >= kLookEvery) look_for_more(now);
+    std::vector<WatchedWiimote> seen;
+    for (const auto& each : watched_) seen.push_back(each->seen_at(now));
+    return seen;
+  }
+
+ private:
+  static constexpr Duration kLookEvery = std::chrono::seconds(1);
+
+  void look_for_more(Time now) {
+    looked_at_ = now;
+    if (!options_.which.empty()) return;
+    for (const NumberedWiimote& each : newcomers(devices_.bus(), devices_.clock(), known_))
+      add(each);
+  }
+  void add(const NumberedWiimote& wiimote) {
+    known_.push_back(wiimote);
+    watched_.push_back(std::make_unique<Watched>(devices_, claims_, wiimote, options_));
+  }
+
+  const WatchOptions& options_;
+  WiimoteBus devices_;
+  WiimoteClaims claims_;
+  std::vector<NumberedWiimote> known_;
+  std::vector<std::unique_ptr<Watched>> watched_;
+  Time looked_at_{};
+};
 
 int watch(const WatchOptions& options) {
   const StopSignals signals;
-  WiimoteBus devices(options.emulated, options.emulation);
-  WiimoteClaims claims;
-  std::vector<std::unique_ptr<Watched>> watched;
-  for (const HidInfo& info : chosen_devices(devices.bus(), options))
-    watched.push_back(std::make_unique<Watched>(devices, claims, info,
-                                                static_cast<int>(watched.size()) + 1, options));
-  std::optional<PictureWindow> window;
-  if (!options.json && !options.no_window && has_display())
-    window.emplace(SizePx{560 * static_cast<int>(watched.size()), 574});
-  const bool terminal = !options.json && isatty(STDOUT_FILENO);
+  Watch watched(options);
+  const Time begin = watched.now();
+  WatchScreen screen(options, begin);
   constexpr Duration kPeriod = std::chrono::milliseconds(50);
-  const Time begin = devices.clock().now();
-  Time summed_up = begin;
-  bool open = true;
-  while (open && !signals.came_within(kPeriod)) {
-    const Time now = devices.clock().now();
+  while (!signals.came_within(kPeriod)) {
+    const Time now = watched.now();
     if (options.seconds && seconds(now - begin) >= *options.seconds) break;
-    std::vector<WatchedWiimote> seen;
-    for (const auto& each : watched) seen.push_back(each->seen_at(now));
-    if (window) open = window->show(screen_picture(seen));
-    if (terminal) fmt::print("\x1b[H\x1b[2J{}", screen_text(seen));
-    if (!terminal && !options.json && now - summed_up >= std::chrono::seconds(1)) {
-      for (const WatchedWiimote& each : seen) fmt::print("{}  {}\n", each.title, summary_of(each));
-      summed_up = now;
-    }
-    std::fflush(stdout);
+    if (!screen.show(watched.seen_at(now), now)) break;
   }
   return 0;
 }
@@ -193,11 +242,14 @@ void add_wiimote_watch(CLI::App& wiimote, Action& chosen) {
   auto options = std::make_shared<WatchOptions>();
   CLI::App* app = wiimote.add_subcommand("watch", "Live dots, buttons and accelerometer");
   app->add_option("WIIMOTE", options->which,
-                  "Numbers as list shows them, or addresses (default: all)");
-  app->add_option("--format", options->format, "Of the dots; full has blobs and half the rate")
+                  "Numbers as list shows them, or addresses (default: all, also later ones)");
+  app->add_option("--format", options->format,
+                  "Of the dots; full has blobs and half the rate (default: extended)")
       ->check(CLI::IsMember({"basic", "extended", "full"}));
   app->add_option("--sensitivity", options->sensitivity,
-                  "wii-1 to wii-5, marcan, inio, maximum, or 22 hexadecimal digits")
+                  "wii-1 to wii-5, marcan, inio, maximum, or 22 hexadecimal digits\n"
+                  "(default: " +
+                      std::string(kDefaultSensitivity) + ")")
       ->check(check_sensitivity);
   app->add_option("--seconds", options->seconds, "Length (default: until Ctrl-C)")
       ->check(between(0.05, 1e6));

@@ -65,6 +65,25 @@ TEST_F(WiimoteCommand, WatchesALineOfJsonAReport) {
             HasSubstr(R"("buttons":[])"), HasSubstr(R"("acceleration_raw":[)")));
 }
 
+TEST_F(WiimoteCommand, WatchesOneByTheNumberThatTheListGivesIt) {
+  const ProcessResult result =
+      vindu({"wiimote", "watch", "2", "--emulated", "--json", "--seconds", "1.5"});
+  EXPECT_THAT(lines_of(result.out),
+              AllOf(SizeIs(Gt(20u)), Each(HasSubstr(R"({"device":2,"sequence":)"))));
+}
+
+TEST_F(WiimoteCommand, SaysInTheHelpOfEachHowItIsCalledAndWhatIsUsual) {
+  const std::map<std::string, std::string> usual = {{"list", "vindu wiimote list --json"},
+                                                    {"identify", "default: 3"},
+                                                    {"watch", "default: wii-4"}};
+  for (const auto& [command, word] : usual) {
+    const ProcessResult result = vindu({"wiimote", command, "--help"});
+    EXPECT_THAT(result.out,
+                AllOf(HasSubstr(word), HasSubstr("Examples:\n  vindu wiimote " + command)))
+        << command;
+  }
+}
+
 TEST_F(WiimoteCommand, WatchesOneAloneInEachFormatAsText) {
   for (const char* format : {"basic", "extended", "full"}) {
     const ProcessResult result =
