@@ -1,12 +1,28 @@
 #include "app/cameras.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tracker/camera_model.h"
 #include "tracker/ir_camera/ir_camera.h"
+#include "tracker/wiimote/find.h"
 #include "tracker/wiimote/hidapi_bus.h"
 
 namespace vindu::app {
+namespace {
+
+CameraState state_of(const LiveWiimote& wiimote) {
+  const LiveWiimoteState state = wiimote.state();
+  return {.name = wiimote.name(),
+          .connected = state.connected,
+          .device = fmt::format("{} ({:04x}:{:04x}), {}", state.device.name, state.device.vendor_id,
+                                state.device.product_id, label_of(state.device)),
+          .gaps = state.health.gaps,
+          .trouble = state.trouble};
+}
+
+}  // namespace
 
 WiimoteSettings wiimote_settings(const CameraConfig& camera, int number) {
   return {.format = camera.dot_format, .sensitivity = camera.sensitivity, .player = number + 1};
@@ -33,16 +49,13 @@ Cameras::Cameras(const Site& site, const EmulatedRoom& room, Clock& clock,
 
 std::vector<CameraState> Cameras::states() const {
   std::vector<CameraState> states;
-  for (const LiveWiimote* camera : live_) {
-    const LiveWiimoteState state = camera->state();
-    states.push_back({camera->name(), state.health.gaps, state.trouble});
-  }
+  for (const auto& state : states_) states.push_back(state());
   return states;
 }
 
 std::unique_ptr<ObservationSource> Cameras::open(const CameraConfig& camera, int number,
                                                  const EmulatedRoom& room) {
-  if (camera.source == CameraSource::video) return make_ir_camera(camera, number, clock_);
+  if (camera.source == CameraSource::video) return open_video(camera, number);
   if (camera.source == CameraSource::wiimote) {
     if (!bus_) bus_ = make_hidapi_bus(clock_);
     return open_live(*bus_, camera.address, camera, number);
@@ -56,6 +69,21 @@ std::unique_ptr<ObservationSource> Cameras::open(const CameraConfig& camera, int
   if (options_.tap) device = options_.tap(std::move(device), number);
   return std::make_unique<WiimoteReader>(std::move(device), number,
                                          wiimote_settings(camera, number));
+}
+
+std::unique_ptr<ObservationSource> Cameras::open_video(const CameraConfig& camera, int number) {
+  auto video = make_ir_camera(camera, number, clock_);
+  const bool is_file = !camera.video.file.empty();
+  CameraState state{.name = camera.name,
+                    .device = is_file ? camera.video.file : camera.video.device,
+                    .gaps = {},
+                    .trouble = {}};
+  states_.emplace_back([video = video.get(), is_file, state]() mutable {
+    state.connected = !video->gone();
+    state.trouble = state.connected ? "" : is_file ? "the video has ended" : "the camera is gone";
+    return state;
+  });
+  return video;
 }
 
 std::unique_ptr<ObservationSource> Cameras::open_live(HidBus& bus, const std::string& address,
@@ -72,7 +100,7 @@ std::unique_ptr<ObservationSource> Cameras::open_live(HidBus& bus, const std::st
       return tap(std::move(device), number);
     };
   auto wiimote = std::make_unique<LiveWiimote>(bus, clock_, claims_, live);
-  live_.push_back(wiimote.get());
+  states_.emplace_back([wiimote = wiimote.get()] { return state_of(*wiimote); });
   return wiimote;
 }
 

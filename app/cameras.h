@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,13 @@ struct CamerasOptions {
   std::function<std::unique_ptr<HidDevice>(std::unique_ptr<HidDevice>, int camera)> tap;
 };
 
-/// What the stream of a camera with a thread of its own is like.
+/// How a camera is that may go and come back.
 struct CameraState {
   std::string name;
-  GapCounts gaps;
-  std::string trouble;  ///< now; empty when there is none
+  bool connected = false;
+  std::string device;             ///< the last one, for people
+  std::optional<GapCounts> gaps;  ///< of a Wiimote's stream
+  std::string trouble;            ///< now; empty when there is none
 };
 
 /// Room and clock must outlive this. Bound to one thread.
@@ -38,11 +41,13 @@ class Cameras {
 
   /// In the order of the site's cameras.
   const std::vector<std::unique_ptr<ObservationSource>>& sources() const { return sources_; }
+  /// Of all but emulated Wiimotes without a thread.
   std::vector<CameraState> states() const;
 
  private:
   std::unique_ptr<ObservationSource> open(const CameraConfig& camera, int number,
                                           const EmulatedRoom& room);
+  std::unique_ptr<ObservationSource> open_video(const CameraConfig& camera, int number);
   std::unique_ptr<ObservationSource> open_live(HidBus& bus, const std::string& address,
                                                const CameraConfig& camera, int number);
 
@@ -51,7 +56,7 @@ class Cameras {
   WiimoteClaims claims_;
   std::unique_ptr<HidBus> bus_;  // of this machine, once a camera needs it
   std::vector<std::unique_ptr<ObservationSource>> sources_;
-  std::vector<const LiveWiimote*> live_;
+  std::vector<std::function<CameraState()>> states_;  // of some of the sources
 };
 
 /// Width and height of what a camera's dots lie in.

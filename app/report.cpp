@@ -163,9 +163,12 @@ std::string table_of(const RunReport& report) {
   for (const Row& row : latency_rows(report)) text += row_text(row, "ms");
   for (const Row& row : error_rows(report)) text += row_text(row, "mm");
   text += tracking_text(report);
-  for (const CameraState& camera : report.cameras)
-    text += fmt::format("  {:<34}{}{}\n", "gaps of camera " + camera.name, text_of(camera.gaps),
-                        camera.trouble.empty() ? "" : "; " + camera.trouble);
+  for (const CameraState& camera : report.cameras) {
+    if (camera.gaps)
+      text += fmt::format("  {:<34}{}\n", "gaps of camera " + camera.name, text_of(*camera.gaps));
+    if (!camera.trouble.empty())
+      text += fmt::format("  {:<34}{}\n", "camera " + camera.name, camera.trouble);
+  }
   if (report.tracker)
     text += fmt::format("  {:<34}{} drawn frames\n", "eye held or led back in", led_frames(report));
   if (const int black = black_frames(report))

@@ -24,7 +24,7 @@ struct RunReport {
   LoopResult loop;
   const Person* truth = nullptr;     ///< where there is one; the eye error is measured against it
   const Tracker* tracker = nullptr;  ///< where one ran
-  std::vector<CameraState> cameras;  ///< those that have a thread of their own
+  std::vector<CameraState> cameras;  ///< those that may go and come back
   double scale = 1;
   SizePx wall_px;
   std::string gl;

@@ -255,6 +255,7 @@ Time soon() { return std::chrono::steady_clock::now() + 20s; }
 
 TEST(LiveCamera, DeliversEachPictureByItsDriversTime) {
   const auto open = [] { return std::make_unique<PlayedInput>(times(3, picture), 50ms); };
+  ::testing::internal::CaptureStderr();
   const auto camera = make_live_camera(open, {}, 2);
   for (int i = 0; i < 3; ++i) {
     const auto seen = camera->next(soon());
@@ -264,6 +265,8 @@ TEST(LiveCamera, DeliversEachPictureByItsDriversTime) {
     EXPECT_GE(std::chrono::steady_clock::now() - seen->arrival, 50ms);
   }
   EXPECT_EQ(camera->counts().stamped, 3u);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              ::testing::HasSubstr("pictures have the times that the driver gives them"));
   EXPECT_FALSE(camera->next(std::chrono::steady_clock::now()));
   EXPECT_FALSE(camera->gone());
 }
@@ -271,11 +274,14 @@ TEST(LiveCamera, DeliversEachPictureByItsDriversTime) {
 TEST(LiveCamera, TakesTheTimeOfArrivalWhereTheDriversClockIsAnother) {
   const Time before = std::chrono::steady_clock::now();
   const auto open = [] { return std::make_unique<PlayedInput>(times(1, picture), 30min); };
+  ::testing::internal::CaptureStderr();
   const auto camera = make_live_camera(open, {}, 0);
   const auto seen = camera->next(soon());
   ASSERT_TRUE(seen);
   EXPECT_GE(seen->arrival, before);
   EXPECT_EQ(camera->counts().stamped, 0u);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              ::testing::HasSubstr("pictures have those of their arrival"));
 }
 
 TEST(LiveCamera, IsTriedAgainUntilItComesBack) {

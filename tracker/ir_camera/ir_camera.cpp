@@ -62,6 +62,7 @@ class LiveCamera final : public IrCamera {
     const Time arrival = std::chrono::steady_clock::now();
     const std::optional<Time> stamped = driver_time(read.stamp, arrival);
     const Observation seen{camera_, stamped.value_or(arrival), detect_blobs(read.picture, blobs_)};
+    if (counts_.pictures == 0) say_clock(stamped.has_value());
     {
       const std::lock_guard lock(mutex_);
       ++counts_.pictures;
@@ -73,6 +74,11 @@ class LiveCamera final : public IrCamera {
       queue_.push_back(seen);
     }
     changed_.notify_one();
+  }
+
+  void say_clock(bool of_driver) const {
+    log_info(name_, of_driver ? "pictures have the times that the driver gives them"
+                              : "the driver gives no times: pictures have those of their arrival");
   }
 
   void lose() {
