@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Builds the fuzzers with clang's libFuzzer and lets each search for a while:
-#   tests/fuzz/run.sh [SECONDS] [NAME...]        (default 60 wiimote wire scene)
+#   tests/fuzz/run.sh [SECONDS] [NAME...]        (default 60 wiimote recording wire scene)
 # What one finds is left in build/fuzz/NAME as crash-...; give that file to its program to see it
 # again.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 seconds=${1:-60}
 names=("${@:2}")
-[[ ${#names[@]} -gt 0 ]] || names=(wiimote wire scene)
+[[ ${#names[@]} -gt 0 ]] || names=(wiimote recording wire scene)
 
 # fuzz NAME LENGTH COMPILER-ARGUMENT...: tests/fuzz/NAME_fuzz.cpp on inputs of up to LENGTH bytes.
 fuzz() {
@@ -23,6 +23,19 @@ fuzz() {
 wiimote() {
   fuzz wiimote 512 "$root"/tracker/wiimote/{commands,exchange,gaps,report,session}.cpp \
     "$root/core/infrared.cpp" -isystem /usr/include/eigen3 -lfmt
+}
+
+# Seeded with a good text, and with bodies of a start record and a report.
+recording() {
+  local corpus=$root/build/fuzz/recording/corpus
+  mkdir -p "$corpus"
+  printf '\0# a text\nleft 1000 33 00 40 80\nright 2000 20 00\n' > "$corpus/text"
+  {
+    printf '\1\43\0\1' && head -c 34 /dev/zero
+    printf '\17\0\2\0\0\1\0\0\0\0\0\0\0\63\0\100\200'
+  } > "$corpus/bodies"
+  fuzz recording 8192 "$root"/tracker/recording_{format,reader,stream}.cpp "$root/core/error.cpp" \
+    -isystem /usr/include/eigen3 -lz
 }
 
 # Seeded with good messages; the wire's C structs are generated as the build does it.

@@ -23,9 +23,12 @@ void check_parser(std::span<const std::uint8_t> bytes) {
             dot.size >= 0 && dot.size <= 15);
 }
 
-/// One byte of milliseconds, one of length, then so many of report; again and again.
+/// The first byte chooses the format of the dots. Then one of milliseconds, one of length, and so
+/// many of report; again and again.
 void check_session(std::span<const std::uint8_t> bytes) {
-  WiimoteSession session({});
+  if (bytes.empty()) return;
+  WiimoteSession session({.format = static_cast<IrFormat>(bytes[0] % 3)});
+  bytes = bytes.subspan(1);
   Time now{};
   while (bytes.size() >= 2) {
     now += std::chrono::milliseconds(bytes[0]);
