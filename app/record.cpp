@@ -2,6 +2,7 @@
 // reader thread a camera.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "core/log.h"
 #include "renderer/resources.h"
 #include "tracker/recording_devices.h"
+#include "tracker/wiimote/hidapi_bus.h"
 
 namespace vindu::app {
 namespace {
@@ -31,9 +33,17 @@ struct RecordCommand {
   EmulationOptions emulation;
 };
 
+/// Program and machine, as a bug report needs them.
+std::string program_text() {
+  utsname machine{};
+  uname(&machine);
+  return fmt::format("vindu {} on {} {} {}, hidapi {}", VINDU_VERSION, machine.sysname,
+                     machine.release, machine.machine, hidapi_version());
+}
+
 RecordingInfo describe(const std::string& wall_file, const Site& site, const Clock& clock) {
   RecordingInfo info{
-      .program = "vindu " VINDU_VERSION,
+      .program = program_text(),
       .started_utc_ns = Duration(std::chrono::system_clock::now().time_since_epoch()).count(),
       .started = clock.now(),
       .wall_file = wall_file,
@@ -83,14 +93,39 @@ class Progress {
   Time shown_at_{};
 };
 
+/// Notes in the recording which device each camera has, what is wrong with it, and when it goes and
+/// comes back.
+class CameraNotes {
+ public:
+  void take(const std::vector<CameraState>& states, Time now, RecordingWriter& writer) {
+    noted_.resize(states.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const std::string text = text_of(states[i]);
+      if (text == noted_[i]) continue;
+      writer.note(now, states[i].name + ": " + (text.empty() ? "gone" : text));
+      noted_[i] = text;
+    }
+  }
+
+ private:
+  static std::string text_of(const CameraState& state) {
+    if (!state.connected || state.trouble.empty())
+      return state.connected ? state.device : state.trouble;
+    return state.device + ": " + state.trouble;
+  }
+  std::vector<std::string> noted_;
+};
+
 /// Until the time is over, a signal comes, or nothing can be written.
 void wait_for_end(const RecordCommand& command, const StopSignals& signals, const Cameras& cameras,
-                  const RecordingWriter& writer, const RecordingInfo& info) {
+                  RecordingWriter& writer, const RecordingInfo& info) {
   const MonotonicClock clock;
   const Time end = command.seconds ? clock.now() + from_seconds(*command.seconds) : Time::max();
   Progress progress(info);
+  CameraNotes notes;
   while (clock.now() < end && writer.status().failure.empty()) {
     progress.show(writer.status(), clock.now());
+    notes.take(cameras.states(), clock.now(), writer);
     for (const auto& camera : cameras.sources())
       while (camera->next(Time::max())) continue;  // the recording has them
     const Duration rest = end - clock.now();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "app/cameras.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/pose_lines.h"
@@ -57,21 +58,8 @@ Pace pace_of(const ReplayCommand& command, Time first) {
 void put_line(const std::string& line) { std::fputs((line + "\n").c_str(), stdout); }
 
 Site site_for(const ReplayCommand& command, const RecordingInfo& info) {
-  if (!command.wall_file.empty()) return read_site(command.wall_file);
-  if (info.wall_text.empty())
-    throw Error({"holds no wall file", command.file, "name the one to track with: --wall FILE"});
-  return parse_site(info.wall_text, info.wall_file);
-}
-
-/// By name; a device without one is its index.
-std::optional<std::size_t> camera_of(const RecordedDevice& device, const Site& site) {
-  if (device.name.empty())
-    return static_cast<std::size_t>(device.index) < site.cameras.size()
-               ? std::optional<std::size_t>(device.index)
-               : std::nullopt;
-  const auto camera = std::ranges::find(site.cameras, device.name, &CameraConfig::name);
-  if (camera == site.cameras.end()) return std::nullopt;
-  return static_cast<std::size_t>(camera - site.cameras.begin());
+  if (auto site = site_of(info, command.wall_file)) return std::move(*site);
+  throw Error({"holds no wall file", command.file, "name the one to track with: --wall FILE"});
 }
 
 std::vector<WiimoteReader> open_readers(const ReplayCommand& command,
@@ -88,7 +76,8 @@ std::vector<WiimoteReader> open_readers(const ReplayCommand& command,
     readers.emplace_back(
         std::make_unique<ReplayHidDevice>(command.file, device.index, *pace.clock,
                                           ReplayOptions{pace.shift, command.damage()}),
-        static_cast<int>(*camera));
+        static_cast<int>(*camera),
+        wiimote_settings(site.cameras[*camera], static_cast<int>(*camera)));
   }
   if (readers.empty())
     throw Error({"none of its devices is a camera of the wall file", command.file,
@@ -224,7 +213,7 @@ void print_comments(const RecordingSummary& summary) {
 
 int replay(const ReplayCommand& command) {
   if (command.speed == "real") std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  const RecordingSummary summary = summarize(command.file, command.damage());
+  const RecordingSummary summary = summarize(command.file, command.damage(), command.wall_file);
   for (const std::string& remark : summary.problems.remarks) log_warning("replay", remark);
   if (command.track || command.parts || !command.path_file.empty()) return track(command, summary);
   if (command.text) print_comments(summary);
@@ -264,7 +253,7 @@ void add_replay(CLI::App& parent, Action& chosen) {
                   "real: as it was recorded; max: as fast as it can (default)")
       ->check(CLI::IsMember({"real", "max"}));
   app->add_option("--wall", command->wall_file,
-                  "Wall file to track with (default: the one in the recording)")
+                  "Wall file of its cameras (default: the one in the recording)")
       ->type_name("FILE");
   app->add_option("--predict-ms", command->predict_ms,
                   "With --track: the eye so long after each tick (default: 0)")

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/cameras.h"
 #include "core/error.h"
 #include "tracker/recording_devices.h"
 #include "tracker/wiimote/reader.h"
@@ -28,24 +29,39 @@ void count(DeviceSummary& device, const RecordedReport& report) {
   device.last = std::max(device.last, report.arrival);
 }
 
-void drive(const std::string& file, int index, DeviceSummary& device, DamagePolicy damage) {
-  ManualClock clock;
-  WiimoteReader reader(
-      std::make_unique<ReplayHidDevice>(file, index, clock, ReplayOptions{.damage = damage}),
-      index);
+WiimoteSettings driver_settings(const RecordedDevice& device, const std::optional<Site>& site) {
+  const auto camera = site ? camera_of(device, *site) : std::nullopt;
+  return camera ? wiimote_settings(site->cameras[*camera], static_cast<int>(*camera))
+                : WiimoteSettings{};
+}
+
+void drive(std::unique_ptr<HidDevice> recorded, const WiimoteSettings& settings,
+           DeviceSummary& device) {
+  WiimoteReader reader(std::move(recorded), 0, settings);
   for (const Time until : {device.first, device.last})
     while (reader.next(until)) ++device.observations;
   device.refused = reader.session().health().refused;
 }
 
+/// Without a wall that can be read, what is usual of a camera has to do.
+std::optional<Site> site_to_drive_with(RecordingSummary& summary, const std::string& wall_file) {
+  try {
+    return site_of(summary.info, wall_file);
+  } catch (const Error& error) {
+    if (!wall_file.empty()) throw;
+    summary.problems.remarks.push_back(std::string("the wall file in it: ") + error.what());
+    return std::nullopt;
+  }
+}
+
 /// Nobody waits for that; it is two clocks in one file.
-void refuse_leap(const std::string& file, Time arrival, Time before) {
+void refuse_leap(const RecordingReader& reader, Time arrival, Time before) {
   constexpr auto kLeap = std::chrono::days(7);
   if (before == Time::min() || arrival - before < kLeap) return;
   throw Error(
       {fmt::format("the report at {} ns comes {:.0f} days after the ones before it",
                    Duration(arrival.time_since_epoch()).count(), seconds(arrival - before) / 86400),
-       file, "give all arrival times on one clock, or cut the recording in two"});
+       reader.place(), "give all arrival times on one clock, or cut the recording in two"});
 }
 
 /// Names stand in the text form only if all of them can be read again.
@@ -97,6 +113,14 @@ std::string gaps_table(const RecordingSummary& summary) {
   return text;
 }
 
+std::string notes_text(const RecordingSummary& summary) {
+  if (summary.notes.empty()) return "";
+  std::string text = "\n  noted at\n";
+  for (const RecordedNote& note : summary.notes)
+    text += fmt::format("  {:>10.3f} s  {}\n", seconds(note.time - summary.first), note.text);
+  return text;
+}
+
 std::string problems_text(const RecordingSummary& summary) {
   std::string text;
   const auto say = [&text](std::uint64_t count, const std::string& what) {
@@ -117,22 +141,45 @@ std::string problems_text(const RecordingSummary& summary) {
 
 }  // namespace
 
-RecordingSummary summarize(const std::string& file, DamagePolicy damage) {
+std::optional<Site> site_of(const RecordingInfo& info, const std::string& wall_file) {
+  if (!wall_file.empty()) return read_site(wall_file);
+  if (info.wall_text.empty()) return std::nullopt;
+  return parse_site(info.wall_text, info.wall_file);
+}
+
+std::optional<std::size_t> camera_of(const RecordedDevice& device, const Site& site) {
+  if (device.name.empty())
+    return static_cast<std::size_t>(device.index) < site.cameras.size()
+               ? std::optional<std::size_t>(device.index)
+               : std::nullopt;
+  const auto camera = std::ranges::find(site.cameras, device.name, &CameraConfig::name);
+  if (camera == site.cameras.end()) return std::nullopt;
+  return static_cast<std::size_t>(camera - site.cameras.begin());
+}
+
+RecordingSummary summarize(const std::string& file, DamagePolicy damage,
+                           const std::string& wall_file) {
   RecordingReader reader(file, damage);
-  RecordingSummary summary{.file = file, .info = {}, .problems = {}, .devices = {}};
+  RecordingSummary summary{.file = file, .info = {}, .problems = {}, .notes = {}, .devices = {}};
   while (const auto report = reader.next()) {
-    refuse_leap(file, report->arrival, summary.last);
+    refuse_leap(reader, report->arrival, summary.last);
     count(summary.devices[report->device], *report);
     summary.first = std::min(summary.first, report->arrival);
     summary.last = std::max(summary.last, report->arrival);
   }
   summary.info = reader.info();
   summary.problems = reader.problems();
+  summary.notes = reader.notes();
   name_devices(summary);
   if (summary.first > summary.last)
     throw Error({"holds no reports", file, "record again, and look whether the cameras are on"});
-  for (auto& [index, device] : summary.devices)
-    if (device.reports > 0) drive(file, index, device, damage);
+  const std::optional<Site> site = site_to_drive_with(summary, wall_file);
+  ManualClock clock;
+  for (const RecordedDevice& recorded : summary.info.devices)
+    if (DeviceSummary& device = summary.devices.at(recorded.index); device.reports > 0)
+      drive(std::make_unique<ReplayHidDevice>(file, recorded.index, clock,
+                                              ReplayOptions{.damage = damage}),
+            driver_settings(recorded, site), device);
   return summary;
 }
 
@@ -142,7 +189,7 @@ std::string table_of(const RecordingSummary& summary) {
                   summary.file, origin_of(summary.info), seconds(summary.last - summary.first),
                   "device", "reports", "seconds", "a second", "observations");
   for (const auto& [index, device] : summary.devices) text += device_row(device);
-  return text + gaps_table(summary) + problems_text(summary);
+  return text + gaps_table(summary) + notes_text(summary) + problems_text(summary);
 }
 
 }  // namespace vindu::app

@@ -4,10 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/site.h"
 #include "tracker/recording_reader.h"
+#include "tracker/wiimote/commands.h"
 
 namespace vindu::app {
 
@@ -30,14 +33,24 @@ struct RecordingSummary {
   std::string file;
   RecordingInfo info;  ///< with all devices, also those of a text
   RecordingProblems problems;
+  std::vector<RecordedNote> notes;
   std::map<int, DeviceSummary> devices;  ///< by index
   Time first = Time::max();
   Time last = Time::min();
 };
 
-/// Reads all of it, once as bytes and once for each device through the driver. Throws Error as
-/// RecordingReader does, and where it holds no reports.
-RecordingSummary summarize(const std::string& file, DamagePolicy damage);
+/// That of the file, or else the one in the recording; empty when there is neither. Throws Error
+/// when it cannot be read.
+std::optional<Site> site_of(const RecordingInfo& info, const std::string& wall_file);
+
+/// Index of the device's camera, by name; a device without one is its index.
+std::optional<std::size_t> camera_of(const RecordedDevice& device, const Site& site);
+
+/// Reads all of it, once as bytes and once for each device through the driver, with what that wall
+/// file, or the one in the recording, says of its camera. Throws Error as RecordingReader does, and
+/// where it holds no reports.
+RecordingSummary summarize(const std::string& file, DamagePolicy damage,
+                           const std::string& wall_file);
 
 /// For people.
 std::string table_of(const RecordingSummary& summary);

@@ -21,7 +21,7 @@ struct RecordedDevice {
 };
 
 struct RecordingInfo {
-  std::string program;              ///< name and version: "vindu 0.1.0"
+  std::string program;  ///< with version and machine: "vindu 0.1.0 on Linux 6.1.0, hidapi 0.13.1"
   std::int64_t started_utc_ns = 0;  ///< CLOCK_REALTIME; tells one recording from another
   Time started{};                   ///< the same moment on the clock of the arrival times
   std::string wall_file;            ///< path, as it was given
@@ -37,6 +37,14 @@ struct RecordedReport {
   std::vector<std::uint8_t> bytes;  ///< report id first; never empty
 
   bool operator==(const RecordedReport&) const = default;
+};
+
+/// What happened beside the reports, for people: which device a camera has, that it went.
+struct RecordedNote {
+  Time time{};
+  std::string text;  ///< UTF-8, at most kMaxRecordedReport bytes
+
+  bool operator==(const RecordedNote&) const = default;
 };
 
 /// HID reports have at most 64 bytes where we know them; hidapi's limit for descriptors is 4096.

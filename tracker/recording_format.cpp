@@ -11,7 +11,7 @@
 namespace vindu {
 namespace {
 
-enum class RecordType : std::uint8_t { start = 1, report = 2, dropped = 3 };
+enum class RecordType : std::uint8_t { start = 1, report = 2, dropped = 3, note = 4 };
 
 template <std::unsigned_integral Value>
 void append(Bytes& to, Value value) {
@@ -116,6 +116,13 @@ std::optional<Record> decode_dropped(Taker from) {
   return from.good() ? std::optional<Record>(dropped) : std::nullopt;
 }
 
+std::optional<Record> decode_note(Taker from) {
+  RecordedNote note{from.take_time(), {}};
+  note.text.assign(from.rest().begin(), from.rest().end());
+  if (!from.good() || note.text.size() > kMaxRecordedReport) return std::nullopt;
+  return note;
+}
+
 constexpr bool is_blank(char letter) { return letter == ' ' || letter == '\t'; }
 
 /// The next word, and the line without it.
@@ -200,6 +207,14 @@ void append_dropped(Bytes& to, const DroppedRecord& dropped) {
   end_record(to, begin);
 }
 
+void append_note(Bytes& to, const RecordedNote& note) {
+  assert(arrival_in_range(nanoseconds(note.time)) && note.text.size() <= kMaxRecordedReport);
+  const std::size_t begin = begin_record(to, RecordType::note);
+  append(to, static_cast<std::uint64_t>(nanoseconds(note.time)));
+  to.insert(to.end(), note.text.begin(), note.text.end());
+  end_record(to, begin);
+}
+
 std::uint32_t read_u32(ByteSpan bytes) { return Taker(bytes).take<std::uint32_t>(); }
 
 std::size_t record_size(ByteSpan bytes) { return kRecordHead + read_u32(bytes); }
@@ -218,6 +233,8 @@ std::optional<Record> decode_body(ByteSpan body) {
       return decode_report(from);
     case RecordType::dropped:
       return decode_dropped(from);
+    case RecordType::note:
+      return decode_note(from);
   }
   return from.good() ? std::optional<Record>(std::monostate()) : std::nullopt;
 }

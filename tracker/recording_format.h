@@ -30,12 +30,14 @@ struct DroppedRecord {
   std::uint64_t reports = 0;
 };
 /// monostate: a type that this version does not know.
-using Record = std::variant<std::monostate, StartRecord, RecordedReport, DroppedRecord>;
+using Record =
+    std::variant<std::monostate, StartRecord, RecordedReport, DroppedRecord, RecordedNote>;
 
 /// The preamble, then the record that every file begins with.
 void append_start(Bytes& to, const StartRecord& start);
 void append_report(Bytes& to, int device, Time arrival, ByteSpan report);
 void append_dropped(Bytes& to, const DroppedRecord& dropped);
+void append_note(Bytes& to, const RecordedNote& note);
 
 /// Size of the whole record that begins here, by its length field. Needs kRecordHead bytes.
 std::size_t record_size(ByteSpan bytes);

@@ -1,6 +1,7 @@
 #include "tracker/recording_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 
@@ -12,6 +13,8 @@ namespace {
 
 constexpr std::size_t kLongestLine = 64 << 10;
 constexpr std::size_t kRemarks = 10;
+constexpr std::size_t kNotes = 1000;
+constexpr std::array<std::uint8_t, 3> kByteOrderMark = {0xef, 0xbb, 0xbf};  // of UTF-8
 
 /// The whole record that begins here; empty where there is none.
 ByteSpan whole_record(RecordingStream& stream, std::size_t largest_body) {
@@ -57,12 +60,15 @@ RecordingReader::RecordingReader(const std::string& file, DamagePolicy damage)
   if (text_ && std::ranges::find(begin, 0) != begin.end())
     throw Error({"is neither a recording nor text", file,
                  "give a file that vindu record wrote, or lines \"device arrival_ns hex-bytes\""});
-  if (!text_) begin_part();
+  if (!text_)
+    begin_part();
+  else if (std::ranges::equal(stream_->peek(kByteOrderMark.size()), kByteOrderMark))
+    stream_->skip(kByteOrderMark.size());
 }
 
 void RecordingReader::begin_part() {
-  const ByteSpan preamble = stream_->peek(kPreambleSize);
-  if (preamble.size() < kPreambleSize)
+  const ByteSpan preamble = stream_->peek(kPreambleSize + 1);
+  if (preamble.size() <= kPreambleSize)
     throw Error({"ends within its beginning", file_, "nothing can be read of it; record again"});
   const std::uint32_t format = read_u32(preamble.subspan(kRecordingMagic.size()));
   if (format != kRecordingFormat)
@@ -85,7 +91,7 @@ bool RecordingReader::begin_next_part() {
   std::error_code ignored;
   if (next.empty() || !std::filesystem::exists(next, ignored)) return false;
   const std::uint64_t size = std::filesystem::file_size(next, ignored);
-  if (size < kPreambleSize) {  // cut off as it was begun
+  if (size <= kPreambleSize) {  // cut off as it was begun
     problems_.torn_bytes += size;
     remark(next + ": was cut off at its beginning");
     return false;
@@ -119,7 +125,10 @@ std::optional<RecordedReport> RecordingReader::next_record() {
       handle_damage();
       continue;
     }
+    record_begin_ = stream_->offset();
     stream_->skip(bytes.size());
+    if (const auto* note = std::get_if<RecordedNote>(&*record); note && notes_.size() < kNotes)
+      notes_.push_back(*note);
     if (const auto* dropped = std::get_if<DroppedRecord>(&*record))
       problems_.dropped += dropped->reports;
     if (auto* report = std::get_if<RecordedReport>(&*record)) {
@@ -127,6 +136,11 @@ std::optional<RecordedReport> RecordingReader::next_record() {
       return std::move(*report);
     }
   }
+}
+
+std::string RecordingReader::place() const {
+  return text_ ? file_ + ":" + std::to_string(line_)
+               : file_ + ", byte " + std::to_string(record_begin_);
 }
 
 /// Goes to the next whole record. Where none follows, the recording ends here: writing was cut off.
@@ -177,14 +191,14 @@ RecordedReport RecordingReader::report_of_line(const std::string& word, Recorded
   const auto number = device_number(word);
   if (number.has_value() ? !index_of_name_.empty()
                          : !info_.devices.empty() && index_of_name_.empty())
-    throw Error({"\"" + word + "\": some devices have names and others numbers",
-                 file_ + ":" + std::to_string(line_), "write one or the other on all lines"});
+    throw Error({"\"" + word + "\": some devices have names and others numbers", place(),
+                 "write one or the other on all lines"});
   if (!number) {
     const auto next = static_cast<int>(index_of_name_.size());
     report.device = index_of_name_.try_emplace(word, next).first->second;
     if (report.device > 0xffff)
-      throw Error({"there are more than 65536 devices", file_ + ":" + std::to_string(line_),
-                   "begin each line with the camera's name"});
+      throw Error(
+          {"there are more than 65536 devices", place(), "begin each line with the camera's name"});
   }
   report.device = number.value_or(report.device);
   know_device(report.device, number ? "" : word);
@@ -192,7 +206,7 @@ RecordedReport RecordingReader::report_of_line(const std::string& word, Recorded
 }
 
 void RecordingReader::handle_bad_line(const std::string& what, std::size_t size, bool ended) {
-  const std::string where = file_ + ":" + std::to_string(line_);
+  const std::string where = place();
   if (!ended && stream_->peek(1).empty()) {
     problems_.torn_bytes += size;
     return remark(where + ": the last " + std::to_string(size) +

@@ -35,6 +35,10 @@ class RecordingReader {
   /// Where the recording itself does not name its devices, those that appeared so far.
   const RecordingInfo& info() const { return info_; }
   const RecordingProblems& problems() const { return problems_; }
+  /// Of what was read so far; the first thousand.
+  const std::vector<RecordedNote>& notes() const { return notes_; }
+  /// Where the last report stands: "walk.txt:12", or "walk.vrec, byte 345".
+  std::string place() const;
 
  private:
   void begin_part();
@@ -55,10 +59,12 @@ class RecordingReader {
   std::optional<RecordingStream> stream_;
   bool text_ = false;
   int part_ = 0;
-  std::uint64_t line_ = 0;
-  bool line_ended_ = false;  // by a newline
+  std::uint64_t line_ = 0;          // the last one
+  std::uint64_t record_begin_ = 0;  // of the last one, from the file's beginning
+  bool line_ended_ = false;         // by a newline
   RecordingInfo info_;
   RecordingProblems problems_;
+  std::vector<RecordedNote> notes_;
   std::map<std::string, int> index_of_name_;  // text only
 };
 

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cerrno>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -31,6 +32,30 @@ void check_devices(const std::vector<RecordedDevice>& devices) {
   }
 }
 
+/// Fails what is to be written to `file`; `error` is of errno.
+Error cannot_be_written(const std::string& file, int error) {
+  return Error(
+      {"cannot be written: " + reason_of(error), file, "make room on the disk and record again"});
+}
+
+/// A later part of that name, which would stop the recording when its turn comes.
+std::optional<std::string> leftover_part(const std::string& file) {
+  const std::filesystem::path path(file);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::string begin = path.stem().string() + ".", end = path.extension();
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+    const std::string name = entry.path().filename();
+    if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) ||
+        !name.ends_with(end))
+      continue;
+    const std::size_t digits = name.size() - begin.size() - end.size();
+    if (name.substr(begin.size(), digits).find_first_not_of("0123456789") == std::string::npos)
+      return entry.path();
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 RecordingWriter::RecordingWriter(std::string file, RecordingInfo info,
@@ -38,10 +63,8 @@ RecordingWriter::RecordingWriter(std::string file, RecordingInfo info,
     : file_(std::move(file)), info_(std::move(info)), options_(options) {
   check_devices(info_.devices);
   status_.reports.resize(info_.devices.size());
-  // A later part that lies there would stop the recording when its turn comes.
-  if (std::filesystem::exists(recording_part(file_, 1)))
-    throw Error(
-        {"exists already", recording_part(file_, 1), "choose another name, or move it away"});
+  if (const auto part = leftover_part(file_))
+    throw Error({"exists already", *part, "choose another name, or move it away"});
   open_part(0);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -64,6 +87,13 @@ void RecordingWriter::add(int device, Time arrival, std::span<const std::uint8_t
   append_report(queue_, device, arrival, report);
   ++status_.reports[static_cast<std::size_t>(known - info_.devices.begin())];
   if (queue_.size() > options_.queue_bytes / 4) queue_filled_.notify_one();
+}
+
+void RecordingWriter::note(Time time, std::string text) {
+  text.resize(std::min(text.size(), kMaxRecordedReport));
+  const std::lock_guard lock(queue_mutex_);
+  if (status_.failure.empty() && queue_.size() + text.size() <= options_.queue_bytes)
+    append_note(queue_, {time, std::move(text)});
 }
 
 void RecordingWriter::run(const std::stop_token& stop) {
@@ -136,9 +166,7 @@ void RecordingWriter::open_part(int part) {
 
 void RecordingWriter::write(std::span<const std::uint8_t> bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), part_file_.get()) != bytes.size())
-    throw Error({"cannot be written: " + reason_of(errno),
-                 recording_part(file_, status().files - 1),
-                 "make room on the disk and record again"});
+    throw cannot_be_written(recording_part(file_, status().files - 1), errno);
   part_bytes_ += bytes.size();
   const std::lock_guard lock(queue_mutex_);
   status_.bytes += bytes.size();
@@ -146,10 +174,11 @@ void RecordingWriter::write(std::span<const std::uint8_t> bytes) {
 
 void RecordingWriter::sync() {
   if (std::fflush(part_file_.get()) != 0)
-    throw Error({"cannot be written: " + reason_of(errno),
-                 recording_part(file_, status().files - 1),
-                 "make room on the disk and record again"});
-  fdatasync(fileno(part_file_.get()));  // fails on pipes and some file systems; no harm
+    throw cannot_be_written(recording_part(file_, status().files - 1), errno);
+  // Some file systems cannot sync at all (EINVAL, ENOSYS): then the kernel's own time has to do.
+  if (fdatasync(fileno(part_file_.get())) != 0 &&
+      (errno == EIO || errno == ENOSPC || errno == EDQUOT))
+    throw cannot_be_written(recording_part(file_, status().files - 1), errno);
 }
 
 RecordingStatus RecordingWriter::status() const {

@@ -32,8 +32,8 @@ struct RecordingStatus {
 /// Thread-safe.
 class RecordingWriter {
  public:
-  /// Throws Error where the file exists already or cannot be written, and where two devices have
-  /// one index. Its beginning is on disk when this returns.
+  /// Throws Error where the file or a later part of its name exists already, where it cannot be
+  /// written, and where two devices have one index. Its beginning is on disk when this returns.
   RecordingWriter(std::string file, RecordingInfo info, const RecordingOptions& options = {});
   /// Writes what waits.
   ~RecordingWriter();
@@ -41,6 +41,9 @@ class RecordingWriter {
   /// Bounded work: copies the report, never waits for the disk. `device` is the index of one of
   /// info.devices; 1 to kMaxRecordedReport bytes.
   void add(int device, Time arrival, std::span<const std::uint8_t> report);
+
+  /// Bounded work, as add(); at most kMaxRecordedReport bytes of the text.
+  void note(Time time, std::string text);
 
   /// Brings all that was added before to disk.
   void flush();

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <thread>
+#include <utility>
 
 #include "core/camera_path.h"
 #include "simulator/emulated_room.h"
@@ -171,6 +172,7 @@ TEST_F(ReplayCommand, SaysWhatIsWrongWithTextAndWhatToDo) {
   const ProcessResult clocks =
       vindu({"replay", write("clocks.txt", "a 1000 33\nb 1700000000000000000 33\n")});
   EXPECT_THAT(clocks.err, HasSubstr("one clock"));
+  EXPECT_THAT(clocks.err, HasSubstr("clocks.txt:2: "));
 }
 
 TEST_F(ReplayCommand, NeedsAWallToTrackWithWhereTheRecordingHoldsNone) {
@@ -206,6 +208,47 @@ TEST_F(ReplayCommand, ReadsWhatRecordWroteUntilItWasInterrupted) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr(kWall));
   EXPECT_THAT(result.err, Not(HasSubstr("warning")));
+}
+
+TEST_F(ReplayCommand, ReadsEachDotFormatAsTheWallFileHasIt) {
+  std::string wall = bytes_of(kWall);
+  const std::string source = "source = \"emulated\"", dots = "dot_format = \"full\"\n";
+  for (std::size_t at = 0; (at = wall.find(source, at)) != std::string::npos; at += source.size())
+    wall.insert(std::exchange(at, at + dots.size()), dots);
+  const std::string full = write("full.toml", wall);
+  ASSERT_EQ(vindu({"record", "--wall", full, "--seconds", "2", "--out", path("a.vrec")}).exit_code,
+            0);
+  const ProcessResult figures = vindu({"replay", path("a.vrec")});
+  EXPECT_THAT(figures.out, HasSubstr("0x3e: "));
+  EXPECT_THAT(figures.out, HasSubstr("no problems"));
+  EXPECT_THAT(vindu({"replay", path("a.vrec"), "--track"}).out, HasSubstr("eye_in_wall_m"));
+  const std::string text = write("a.txt", vindu({"replay", path("a.vrec"), "--text"}).out);
+  EXPECT_THAT(vindu({"replay", text, "--wall", full}).out, HasSubstr("no problems"));
+}
+
+TEST_F(ReplayCommand, PrintsFiguresAlsoWhereTheWallFileInItCannotBeRead) {
+  {
+    RecordingWriter writer(path("a.vrec"), {.program = "vindu test",
+                                            .started_utc_ns = 0,
+                                            .started = Time{},
+                                            .wall_file = "later.toml",
+                                            .wall_text = "[a table of a later version]",
+                                            .devices = {{0, "left"}}});
+    writer.add(0, Time{}, std::vector<std::uint8_t>{0x30, 0, 0});
+  }
+  const ProcessResult result = vindu({"replay", path("a.vrec")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("0x30: 1"));
+  EXPECT_THAT(result.err, HasSubstr("the wall file in it: later.toml"));
+}
+
+TEST_F(ReplayCommand, TellsOfARecordingTheMachineAndTheDevicesThatWereConnected) {
+  ASSERT_EQ(vindu({"record", "--seconds", "1", "--out", path("a.vrec")}).exit_code, 0);
+  const ProcessResult result = vindu({"replay", path("a.vrec")});
+  EXPECT_THAT(result.out, ContainsRegex("vindu [0-9.]+ on Linux [0-9].*, hidapi [0-9]"));
+  EXPECT_THAT(result.out,
+              ContainsRegex("[0-9.]+ s  left: Nintendo RVL-CNT-01 .057e:0306., 00:1f:c5"));
+  EXPECT_THAT(result.out, HasSubstr("right: Nintendo RVL-CNT-01"));
 }
 
 TEST_F(ReplayCommand, ReadsWhatRecordWroteUntilItWasKilled) {

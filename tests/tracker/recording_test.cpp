@@ -121,6 +121,35 @@ TEST_F(Recording, lays_a_report_out_as_documented) {
                                                          21));
 }
 
+TEST_F(Recording, keeps_notes_apart_from_the_reports_as_documented) {
+  {
+    RecordingWriter writer(path("a.vrec"), info());
+    writer.add(0, report_of(1).arrival, report_of(1).bytes);
+    writer.note(Time{Duration(0x0102030405060708)}, "left: gone");
+    writer.add(0, report_of(2).arrival, report_of(2).bytes);
+  }
+  RecordingReader reader(path("a.vrec"));
+  EXPECT_EQ(reader.next(), report_of(1));
+  EXPECT_EQ(reader.next(), report_of(2));
+  EXPECT_EQ(reader.notes(),
+            (std::vector<RecordedNote>{{Time{Duration(0x0102030405060708)}, "left: gone"}}));
+  const std::string bytes = bytes_of(path("a.vrec"));
+  EXPECT_THAT(bytes, HasSubstr(std::string("\x04"
+                                           "\x08\x07\x06\x05\x04\x03\x02\x01"
+                                           "left: gone")));
+}
+
+TEST_F(Recording, cuts_a_note_that_is_longer_than_any_record_may_be) {
+  {
+    RecordingWriter writer(path("a.vrec"), info());
+    writer.note(Time{}, std::string(9999, 'x'));
+    writer.add(0, report_of(1).arrival, report_of(1).bytes);
+  }
+  RecordingReader reader(path("a.vrec"));
+  EXPECT_EQ(reader.next(), report_of(1));
+  EXPECT_THAT(reader.notes().at(0).text, SizeIs(kMaxRecordedReport));
+}
+
 TEST_F(Recording, loses_only_the_last_record_wherever_that_is_cut_off) {
   const std::string whole = bytes_of(record("a.vrec", 10));
   for (std::size_t left = 0; left < kRecord; ++left) {
@@ -190,6 +219,19 @@ TEST_F(Recording, goes_on_in_the_next_file_when_it_is_full) {
   EXPECT_EQ(rest.reports.back(), report_of(99, 1));
 }
 
+TEST_F(Recording, ends_before_a_file_that_was_cut_off_within_its_beginning) {
+  const std::string beginning = bytes_of(record("b.vrec", 0)).substr(0, 12);
+  for (std::size_t left = 8; left <= beginning.size(); ++left) {
+    EXPECT_THAT(error_of(write("cut.vrec", beginning.substr(0, left))),
+                HasSubstr("ends within its beginning"));
+    const std::string file = path("a" + std::to_string(left) + ".vrec");
+    record(fs::path(file).filename(), 5);
+    write(fs::path(recording_part(file, 1)).filename(), beginning.substr(0, left));
+    EXPECT_EQ(read_all(file).reports, alternating(5)) << left;
+    EXPECT_EQ(read_all(file).problems.torn_bytes, left);
+  }
+}
+
 TEST_F(Recording, does_not_go_on_in_another_recordings_file) {
   const std::string file = record("a.vrec", 5);
   {
@@ -208,6 +250,23 @@ TEST_F(Recording, never_overwrites_a_file) {
   const std::string file = record("a.vrec", 5);
   EXPECT_THROW(RecordingWriter(file, info()), Error);
   EXPECT_EQ(read_all(file).reports, alternating(5));
+}
+
+TEST_F(Recording, begins_nothing_that_a_part_left_over_from_another_would_stop_later) {
+  write("a.2.vrec", "left over");
+  try {
+    RecordingWriter writer(path("a.vrec"), info());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(path("a.2.vrec") + ": exists already"));
+  }
+  EXPECT_FALSE(fs::exists(path("a.vrec")));
+}
+
+TEST_F(Recording, is_not_hindered_by_files_that_are_none_of_its_parts) {
+  for (const char* name : {"a.old.vrec", "a.1.txt", "b.1.vrec", "aa.1.vrec", "a.vrec.1"})
+    write(name, "another");
+  EXPECT_THAT(read_all(record("a.vrec", 5)).reports, SizeIs(5));
 }
 
 TEST_F(Recording, takes_reports_of_several_threads_in_each_ones_order) {
@@ -256,6 +315,22 @@ TEST_F(Recording, reads_lines_of_text_with_comments_names_blanks_and_dos_line_en
   EXPECT_EQ(reading.info.devices, (std::vector<RecordedDevice>{{0, "left"}, {1, "right"}}));
 }
 
+TEST_F(Recording, passes_by_the_byte_order_mark_of_an_editor) {
+  const Reading reading = read_all(write("a.txt", "\xef\xbb\xbfleft 10000000 330100ff\n"));
+  EXPECT_EQ(reading.reports.at(0), report_of(1));
+  EXPECT_EQ(reading.info.devices, (std::vector<RecordedDevice>{{0, "left"}}));
+}
+
+TEST_F(Recording, says_where_the_last_report_stands) {
+  RecordingReader text(write("a.txt", "# first\nleft 1 33\n\nleft 2 33\n"));
+  text.next(), text.next();
+  EXPECT_EQ(text.place(), path("a.txt") + ":4");
+  RecordingReader binary(record("a.vrec", 2));
+  binary.next(), binary.next();
+  const std::size_t last = bytes_of(path("a.vrec")).size() - kRecord;
+  EXPECT_EQ(binary.place(), path("a.vrec") + ", byte " + std::to_string(last));
+}
+
 TEST_F(Recording, takes_a_number_in_text_for_the_devices_index) {
   const Reading reading = read_all(write("a.txt", "3 10000000 330100ff\n"));
   EXPECT_EQ(reading.reports.at(0), report_of(1, 3));
@@ -284,7 +359,7 @@ TEST_F(Recording, refuses_what_is_no_recording) {
   EXPECT_THAT(error_of(fs::path(path("a")).parent_path()), HasSubstr("cannot be read"));
   EXPECT_THAT(error_of(write("empty", "")), HasSubstr("is empty"));
   EXPECT_THAT(error_of(write("a.png", std::string("\x89PNG\0\0", 6))), HasSubstr("neither"));
-  EXPECT_THAT(error_of(write("new.vrec", std::string("VINDUREC\x02\0\0\0", 12))),
+  EXPECT_THAT(error_of(write("new.vrec", std::string("VINDUREC\x02\0\0\0\0", 13))),
               HasSubstr("format 2"));
 }
 

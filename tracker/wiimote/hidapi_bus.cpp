@@ -97,4 +97,6 @@ std::unique_ptr<HidBus> make_hidapi_bus(Clock& clock) {
   return std::make_unique<HidapiBus>(clock);
 }
 
+std::string hidapi_version() { return hid_version_str(); }
+
 }  // namespace vindu

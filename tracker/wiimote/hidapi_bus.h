@@ -9,4 +9,7 @@ namespace vindu {
 /// does not start.
 std::unique_ptr<HidBus> make_hidapi_bus(Clock& clock);
 
+/// "0.13.1", of the library in use.
+std::string hidapi_version();
+
 }  // namespace vindu
