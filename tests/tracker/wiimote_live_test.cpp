@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <functional>
 
 #include "tracker/wiimote/emulator_bus.h"
@@ -15,6 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 /// A dot whose column tells the device.
@@ -24,6 +26,39 @@ WiimoteEmulator::Look dot_at(double x_px) {
     view.spots = {{.x_px = x_px, .y_px = 300, .brightness = 0.1}};
     return view;
   };
+}
+
+/// A device whose data reports lack their end.
+class ShortReports final : public HidDevice {
+ public:
+  explicit ShortReports(std::unique_ptr<HidDevice> device) : device_(std::move(device)) {}
+
+  HidRead read(std::span<std::uint8_t> buffer, Time until) override {
+    HidRead read = device_->read(buffer, until);
+    if (read.status == HidStatus::report && buffer[0] >= 0x30)
+      read.size = std::min<std::size_t>(read.size, 12);
+    return read;
+  }
+  bool write(std::span<const std::uint8_t> report) override { return device_->write(report); }
+
+ private:
+  std::unique_ptr<HidDevice> device_;
+};
+
+/// Ten times as fast as this machine's.
+class FastClock final : public Clock {
+ public:
+  Time now() const override { return begin_ + 10 * (MonotonicClock().now() - begin_); }
+  void sleep_until(Time time) override {
+    MonotonicClock().sleep_until(begin_ + (time - begin_) / 10);
+  }
+
+ private:
+  Time begin_ = MonotonicClock().now();
+};
+
+const GapCount& gaps(const LiveWiimoteState& state, GapCause cause) {
+  return state.health.gaps[static_cast<std::size_t>(cause)];
 }
 
 class LiveWiimoteTest : public ::testing::Test {
@@ -93,9 +128,56 @@ TEST_F(LiveWiimoteTest, WaitsForADeviceThatWentAwayAndGoesOnWithIt) {
   while (left.next(clock_.now())) continue;
   device.plug_in();
   EXPECT_EQ(dot_of(left), 100);
-  ASSERT_TRUE(eventually([&] {
-    return left.state().health.gaps[static_cast<std::size_t>(GapCause::absent)].gaps == 1;
-  }));
+  ASSERT_TRUE(eventually([&] { return gaps(left.state(), GapCause::absent).gaps == 1; }));
+}
+
+TEST_F(LiveWiimoteTest, KeepsADeviceThatIsSilentAndOpensItAnew) {
+  FastClock clock;
+  EmulatedHidBus bus(clock);
+  EmulatedDevice& device = bus.add({}, dot_at(100));
+  std::atomic<int> opened = 0;
+  LiveWiimoteOptions options = named("left");
+  options.tap = [&](std::unique_ptr<HidDevice> handle) { return ++opened, std::move(handle); };
+  LiveWiimote left(bus, clock, claims_, options);
+  ASSERT_TRUE(dot_of(left));
+  device.stay_silent(true);
+  bool gone = false;
+  EXPECT_TRUE(eventually([&] { return gone = gone || left.gone(), opened > 2; }));
+  EXPECT_FALSE(gone);
+  EXPECT_THAT(trouble_text(left.state()), ContainsRegex("silent: press.*[0-9]+ s without"));
+  device.stay_silent(false);
+  EXPECT_TRUE(eventually([&] { return left.state().trouble.empty(); }));
+  EXPECT_EQ(gaps(left.state(), GapCause::silence).gaps, 1u);
+  EXPECT_EQ(gaps(left.state(), GapCause::absent).gaps, 0u);
+}
+
+TEST_F(LiveWiimoteTest, KeepsADeviceWhoseReportsAreTooShortAndSaysSo) {
+  FastClock clock;
+  EmulatedHidBus bus(clock);
+  bus.add({}, dot_at(100));
+  LiveWiimoteOptions options = named("left");
+  options.tap = [](std::unique_ptr<HidDevice> handle) {
+    return std::make_unique<ShortReports>(std::move(handle));
+  };
+  LiveWiimote left(bus, clock, claims_, options);
+  EXPECT_TRUE(
+      eventually([&] { return left.state().trouble.find("too short") != std::string::npos; }));
+  const Time begin = clock.now();
+  eventually([&] { return clock.now() - begin > seconds(12); });
+  EXPECT_THAT(left.state().trouble, HasSubstr("too short"));
+  EXPECT_FALSE(left.gone());
+}
+
+TEST_F(LiveWiimoteTest, SaysThatADeviceWentAwayWithEmptyBatteries) {
+  EmulatedDeviceOptions nearly_empty;
+  nearly_empty.firmware.battery = 0x18;
+  EmulatedDevice& device = add(100, nearly_empty);
+  LiveWiimote left(bus_, clock_, claims_, named("left"));
+  ASSERT_TRUE(dot_of(left));
+  device.set_battery(0);
+  ASSERT_TRUE(eventually([&] { return left.gone(); }));
+  EXPECT_THAT(left.state().trouble, HasSubstr("went away with empty batteries"));
+  EXPECT_TRUE(eventually([&] { return gaps(left.state(), GapCause::battery).gaps == 1; }));
 }
 
 TEST_F(LiveWiimoteTest, SaysWhatHindersItAndKeepsTrying) {

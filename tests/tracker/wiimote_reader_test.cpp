@@ -24,7 +24,7 @@ struct Event {
 struct Script {
   std::vector<Event> events;
   std::vector<Bytes> written = {};
-  bool accepts = true;
+  int refuses = 0;  // so many of what is written next
   std::size_t next = 0;
 };
 
@@ -43,7 +43,7 @@ class PlayedDevice final : public HidDevice {
   }
   bool write(std::span<const std::uint8_t> report) override {
     script_.written.emplace_back(report.begin(), report.end());
-    return script_.accepts;
+    return script_.refuses == 0 || --script_.refuses < 0;
   }
 
  private:
@@ -102,11 +102,14 @@ TEST(WiimoteReader, BeginsWithAStatusRequestAndRepeatsWhatIsNotAnswered) {
   EXPECT_THAT(script.written, ElementsAre(Bytes{0x15, 0x00}, Bytes{0x15, 0x00}, Bytes{0x15, 0x00}));
 }
 
-TEST(WiimoteReader, SaysThatADeviceRefusesWhatIsWritten) {
-  Script script{.events = {}, .accepts = false};
-  WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0);
-  reader.next(at_ms(1));
-  EXPECT_TRUE(reader.refuses());
+TEST(WiimoteReader, SaysThatADeviceRefusesWhatIsWrittenAlsoASecondTime) {
+  for (const int refused : {1, 2}) {
+    Script script{.events = {}, .refuses = refused};
+    WiimoteReader reader(std::make_unique<PlayedDevice>(script), 0);
+    reader.next(at_ms(1));
+    EXPECT_THAT(script.written, ElementsAre(Bytes{0x15, 0x00}, Bytes{0x15, 0x00}));
+    EXPECT_EQ(reader.refuses(), refused == 2);
+  }
 }
 
 TEST(WiimoteReader, EndsWhenTheDeviceIsGoneAndGoesOnWhenItIsBack) {

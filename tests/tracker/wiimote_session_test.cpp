@@ -1,15 +1,11 @@
-// The driver's session against the firmware of an emulated Wiimote that shares no code with it,
-// over a link with a delay, in time that the test moves. What is counted is what people would see:
-// dots, gaps and their causes.
+// The driver's session against an emulated Wiimote: what stops the stream, and how it comes back.
+// What is counted is what people would see: dots, gaps and their causes.
 #include "tracker/wiimote/session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <deque>
-#include <functional>
-
-#include "tracker/wiimote/emulator.h"
+#include "tests/tracker/wiimote_connection.h"
 
 namespace vindu {
 namespace {
@@ -17,97 +13,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::AllOf;
+using testing::Connection;
+using testing::dot_in_the_middle;
 using ::testing::Gt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Lt;
 
-Time at(Duration since_start) { return Time{} + seconds(1) + since_start; }
-
-/// A session and a device, a link's delay of 3 ms to either side between them.
-class Connection {
- public:
-  explicit Connection(const WiimoteSettings& settings = {}, EmulatorOptions options = {})
-      : session(settings), device(started(std::move(options)), [this](Time) { return view; }) {}
-
-  /// Lets time pass.
-  void run_until(Time end) {
-    while (now < end) {
-      now += milliseconds(1);
-      if (const auto happens = each_millisecond) happens();
-      while (const auto report = device.next(now)) to_host_.emplace_back(*report, now + kDelay);
-      while (!to_host_.empty() && to_host_.front().second <= now) hand_over();
-      while (const auto output = session.next_output(now)) write(output->span());
-      while (!to_device_.empty() && to_device_.front().second <= now) obey();
-    }
-  }
-  void run(Duration length) { run_until(now + length); }
-
-  /// What somebody else on this machine writes.
-  void write(std::span<const std::uint8_t> bytes) {
-    to_device_.push_back({{bytes.begin(), bytes.end()}, now + kDelay});
-  }
-
-  const GapCount& gaps(GapCause cause) const {
-    return health_.gaps[static_cast<std::size_t>(cause)];
-  }
-  std::uint64_t all_gaps() {
-    health_ = session.health();
-    std::uint64_t count = 0;
-    for (const GapCount& each : health_.gaps) count += each.gaps;
-    return count;
-  }
-
-  Time now = at({});
-  SensorView view;
-  WiimoteSession session;
-  WiimoteEmulator device;
-  std::vector<WiimoteSample> samples;
-  std::function<void()> each_millisecond;
-  std::function<bool(std::span<const std::uint8_t>)> lose_input, lose_output;
-
- private:
-  static constexpr Duration kDelay = milliseconds(3);
-
-  static EmulatorOptions started(EmulatorOptions options) {
-    options.start = at({});
-    return options;
-  }
-  void hand_over() {
-    const EmulatedReport report = to_host_.front().first;
-    to_host_.pop_front();
-    if (lose_input && lose_input(report.span())) return;
-    if (const auto sample = session.take(report.span(), now)) samples.push_back(*sample);
-  }
-  void obey() {
-    const auto bytes = to_device_.front().first;
-    to_device_.pop_front();
-    if (!lose_output || !lose_output(bytes)) device.output(bytes, now);
-  }
-
-  std::deque<std::pair<EmulatedReport, Time>> to_host_;
-  std::deque<std::pair<std::vector<std::uint8_t>, Time>> to_device_;
-  WiimoteHealth health_;
-};
-
-SensorView dot_in_the_middle() {
-  SensorView view;
-  view.spots = {{.x_px = 511, .y_px = 383, .brightness = 0.1}};
-  return view;
-}
-
-class WiimoteSessionTest : public ::testing::Test {
- protected:
-  void stream(Connection& connection) {
-    connection.view = dot_in_the_middle();
-    connection.run(seconds(1));
-    ASSERT_TRUE(connection.session.started());
-    ASSERT_EQ(connection.all_gaps(), 0u);
-    connection.samples.clear();
-  }
-};
-
-TEST_F(WiimoteSessionTest, StartsTheCameraAndStreamsItsDots) {
+TEST(WiimoteSession, StartsTheCameraAndStreamsItsDots) {
   for (const IrFormat format : {IrFormat::basic, IrFormat::extended, IrFormat::full}) {
     Connection connection({.format = format});
     connection.view = dot_in_the_middle();
@@ -123,7 +36,7 @@ TEST_F(WiimoteSessionTest, StartsTheCameraAndStreamsItsDots) {
   }
 }
 
-TEST_F(WiimoteSessionTest, ShowsThePlayersNumberAndReadsStatusAndCalibration) {
+TEST(WiimoteSession, ShowsThePlayersNumberAndReadsStatusAndCalibration) {
   Connection connection({.player = 3}, {.eeprom = {}, .battery = 0x80});
   connection.run(seconds(1));
   EXPECT_EQ(connection.device.leds(), 0b0100);
@@ -136,9 +49,9 @@ TEST_F(WiimoteSessionTest, ShowsThePlayersNumberAndReadsStatusAndCalibration) {
   EXPECT_NEAR(g[2], 1, 0.03);
 }
 
-TEST_F(WiimoteSessionTest, NumbersItsSamplesAndStampsTheirArrival) {
+TEST(WiimoteSession, NumbersItsSamplesAndStampsTheirArrival) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   connection.run(seconds(1));
   ASSERT_THAT(connection.samples, ::testing::SizeIs(AllOf(Gt(95u), Lt(106u))));
   for (std::size_t i = 1; i < connection.samples.size(); ++i) {
@@ -147,9 +60,9 @@ TEST_F(WiimoteSessionTest, NumbersItsSamplesAndStampsTheirArrival) {
   }
 }
 
-TEST_F(WiimoteSessionTest, GetsTheStreamBackAfterAStatusReport) {
+TEST(WiimoteSession, GetsTheStreamBackAfterAStatusReport) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   connection.device.send_status(connection.now);
   connection.run(seconds(1));
   EXPECT_EQ(connection.all_gaps(), 1u);
@@ -157,9 +70,9 @@ TEST_F(WiimoteSessionTest, GetsTheStreamBackAfterAStatusReport) {
   EXPECT_LE(connection.gaps(GapCause::status).longest, milliseconds(60));
 }
 
-TEST_F(WiimoteSessionTest, GetsTheStreamBackWhenTheKernelAnswersEveryStatusWithItsOwnMode) {
+TEST(WiimoteSession, GetsTheStreamBackWhenTheKernelAnswersEveryStatusWithItsOwnMode) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   int race = 0;
   connection.lose_input = [&](std::span<const std::uint8_t> bytes) {
     static constexpr std::uint8_t kKernels[] = {0x12, 0x00, 0x30};
@@ -179,9 +92,9 @@ TEST_F(WiimoteSessionTest, GetsTheStreamBackWhenTheKernelAnswersEveryStatusWithI
     EXPECT_LE(count.longest, milliseconds(50));
 }
 
-TEST_F(WiimoteSessionTest, LeavesAStreamAloneThatComesInBursts) {
+TEST(WiimoteSession, LeavesAStreamAloneThatComesInBursts) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   int requests = 0;
   std::uint64_t bursts = 0;
   connection.lose_output = [&](std::span<const std::uint8_t> bytes) {
@@ -192,12 +105,12 @@ TEST_F(WiimoteSessionTest, LeavesAStreamAloneThatComesInBursts) {
   EXPECT_EQ(requests, 0);
 }
 
-TEST_F(WiimoteSessionTest, IsNotRefusedByAnErrorThatAnswersSomebodyElse) {
+TEST(WiimoteSession, IsNotRefusedByAnErrorThatAnswersSomebodyElse) {
   std::vector<std::uint8_t> poll = {0x16, 0x04, 0xa6, 0x00, 0xf0, 0x01, 0x55};  // no such device
   poll.resize(22);
   for (int moment = 0; moment < 150; moment += 3) {
     Connection connection;
-    stream(connection);
+    connection.stream();
     connection.write(std::vector<std::uint8_t>{0x13, 0x00});
     connection.write(std::vector<std::uint8_t>{0x1a, 0x00});
     connection.write(std::vector<std::uint8_t>{0x12, 0x00, 0x30});
@@ -210,18 +123,52 @@ TEST_F(WiimoteSessionTest, IsNotRefusedByAnErrorThatAnswersSomebodyElse) {
   }
 }
 
-TEST_F(WiimoteSessionTest, KnowsThatAnExtensionWasPlugged) {
+TEST(WiimoteSession, IsNotDisturbedByWritesOfOthersToOtherChips) {
+  std::vector<std::uint8_t> motion_plus = {0x16, 0x04, 0xa6, 0x00, 0xf0, 0x01, 0x55};  // refused
+  std::vector<std::uint8_t> extension = {0x16, 0x04, 0xa4, 0x00, 0xf0, 0x01, 0x55};
+  motion_plus.resize(22), extension.resize(22);
   Connection connection;
-  stream(connection);
+  connection.stream();
+  connection.device.plug_extension(true, connection.now);
+  connection.run(seconds(1));
+  const std::uint64_t gaps_before = connection.all_gaps();
+  int reads = 0;
+  connection.lose_output = [&](std::span<const std::uint8_t> bytes) {
+    return reads += bytes[0] == 0x17, false;
+  };
+  for (int poll = 0; poll < 7; ++poll) {
+    for (const auto& bytes : {motion_plus, extension, {0x11, 0x12}})
+      connection.write(bytes), connection.run(milliseconds(300));
+  }
+  EXPECT_EQ(reads, 0);
+  EXPECT_EQ(connection.all_gaps(), gaps_before);
+}
+
+TEST(WiimoteSession, WaitsForAnswersThatTakeLong) {
+  Connection connection({}, {}, milliseconds(73));  // 150 ms with the device's own 4
+  connection.view = dot_in_the_middle();
+  connection.run(seconds(4));
+  connection.write({0x13, 0x00});
+  connection.write({0x1a, 0x00});
+  connection.run(seconds(4));
+  EXPECT_TRUE(connection.shows_the_dot());
+  EXPECT_EQ(connection.session.health().starts, 2u);
+  EXPECT_EQ(connection.session.health().repeated, 1u);  // reading a camera that is off is refused
+  EXPECT_EQ(connection.session.health().trouble, "");
+}
+
+TEST(WiimoteSession, KnowsThatAnExtensionWasPlugged) {
+  Connection connection;
+  connection.stream();
   connection.device.plug_extension(true, connection.now);
   connection.run(seconds(1));
   EXPECT_EQ(connection.all_gaps(), 1u);
   EXPECT_EQ(connection.gaps(GapCause::extension).gaps, 1u);
 }
 
-TEST_F(WiimoteSessionTest, TakesTheCameraBackFromSomebodyWhoSwitchesItOff) {
+TEST(WiimoteSession, TakesTheCameraBackFromSomebodyWhoSwitchesItOff) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   for (const std::vector<std::uint8_t>& bytes :
        std::vector<std::vector<std::uint8_t>>{{0x13, 0x00}, {0x1a, 0x00}, {0x12, 0x00, 0x30}})
     connection.write(bytes);
@@ -233,9 +180,9 @@ TEST_F(WiimoteSessionTest, TakesTheCameraBackFromSomebodyWhoSwitchesItOff) {
   EXPECT_EQ(connection.session.health().trouble, "");
 }
 
-TEST_F(WiimoteSessionTest, TakesTheCameraBackFromSomebodyWhoSetsAnotherFormat) {
+TEST(WiimoteSession, TakesTheCameraBackFromSomebodyWhoSetsAnotherFormat) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   std::vector<std::uint8_t> basic = {0x16, 0x04, 0xb0, 0x00, 0x33, 0x01, 0x01};
   basic.resize(22);
   connection.write(basic);
@@ -245,10 +192,10 @@ TEST_F(WiimoteSessionTest, TakesTheCameraBackFromSomebodyWhoSetsAnotherFormat) {
   EXPECT_EQ(dots_of(*connection.samples.back().data.slots).size(), 1u);
 }
 
-TEST_F(WiimoteSessionTest, GetsItsOwnReportBackFromEveryOther) {
+TEST(WiimoteSession, GetsItsOwnReportBackFromEveryOther) {
   for (const int other : {0x30, 0x31, 0x36, 0x37, 0x3d, 0x3e}) {
     Connection connection;
-    stream(connection);
+    connection.stream();
     connection.write(std::vector<std::uint8_t>{0x12, 0x04, static_cast<std::uint8_t>(other)});
     connection.run(seconds(1));
     EXPECT_EQ(connection.samples.back().data.id, 0x33) << other;
@@ -256,9 +203,9 @@ TEST_F(WiimoteSessionTest, GetsItsOwnReportBackFromEveryOther) {
   }
 }
 
-TEST_F(WiimoteSessionTest, FindsACameraThatWasSwitchedOffInSilence) {
+TEST(WiimoteSession, FindsACameraThatWasSwitchedOffInSilence) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   connection.write(std::vector<std::uint8_t>{0x13, 0x00});
   connection.write(std::vector<std::uint8_t>{0x1a, 0x00});
   connection.run(seconds(4));
@@ -267,7 +214,7 @@ TEST_F(WiimoteSessionTest, FindsACameraThatWasSwitchedOffInSilence) {
   EXPECT_EQ(dots_of(*connection.samples.back().data.slots).size(), 1u);
 }
 
-TEST_F(WiimoteSessionTest, ComesThroughLostCommandsAndLostAnswers) {
+TEST(WiimoteSession, ComesThroughLostCommandsAndLostAnswers) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     Connection connection;
     connection.view = dot_in_the_middle();
@@ -287,28 +234,28 @@ TEST_F(WiimoteSessionTest, ComesThroughLostCommandsAndLostAnswers) {
   }
 }
 
-TEST_F(WiimoteSessionTest, StreamsFromADeviceThatAcknowledgesNothingAndSaysSo) {
+TEST(WiimoteSession, StreamsFromADeviceThatAcknowledgesNothingAndSaysSo) {
   Connection connection;
   connection.view = dot_in_the_middle();
   connection.lose_input = [](std::span<const std::uint8_t> bytes) { return bytes[0] < 0x30; };
   connection.run(seconds(4));
   ASSERT_THAT(connection.samples, ::testing::Not(IsEmpty()));
-  EXPECT_THAT(connection.session.health().trouble, HasSubstr("no answer"));
+  EXPECT_THAT(connection.session.health().trouble, HasSubstr("acknowledges nothing"));
   connection.lose_input = nullptr;
   connection.run(seconds(5));
   EXPECT_EQ(connection.session.health().trouble, "");
 }
 
-TEST_F(WiimoteSessionTest, KeepsAskingADeviceThatIsSilentAndNoticesItsReturn) {
+TEST(WiimoteSession, KeepsAskingADeviceThatIsSilentAndNoticesItsReturn) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   bool silent = true;
   int asked = 0;
   connection.lose_input = [&](std::span<const std::uint8_t>) { return silent; };
   connection.lose_output = [&](std::span<const std::uint8_t>) { return ++asked, silent; };
   connection.run(seconds(30));
   EXPECT_GT(asked, 100);
-  EXPECT_THAT(connection.session.health().trouble, HasSubstr("Press a button"));
+  EXPECT_THAT(connection.session.health().trouble, HasSubstr("press a button"));
   silent = false;
   connection.run(seconds(4));
   connection.all_gaps();
@@ -318,9 +265,9 @@ TEST_F(WiimoteSessionTest, KeepsAskingADeviceThatIsSilentAndNoticesItsReturn) {
   EXPECT_EQ(dots_of(*connection.samples.back().data.slots).size(), 1u);
 }
 
-TEST_F(WiimoteSessionTest, RumblesInEveryReportUntilItIsToldNotTo) {
+TEST(WiimoteSession, RumblesInEveryReportUntilItIsToldNotTo) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   connection.session.rumble(true);
   connection.run(milliseconds(20));
   EXPECT_TRUE(connection.device.rumbling());
@@ -331,10 +278,11 @@ TEST_F(WiimoteSessionTest, RumblesInEveryReportUntilItIsToldNotTo) {
   EXPECT_FALSE(connection.device.rumbling());
 }
 
-TEST_F(WiimoteSessionTest, CountsTheTimeThatADeviceWasAway) {
+TEST(WiimoteSession, CountsTheTimeThatADeviceWasAway) {
   Connection connection;
-  stream(connection);
+  connection.stream();
   connection.lose_input = [](std::span<const std::uint8_t>) { return true; };
+  connection.session.away(connection.now);
   connection.run(milliseconds(500));
   connection.lose_input = nullptr;
   connection.session.reconnected(connection.now);

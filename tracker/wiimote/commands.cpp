@@ -83,6 +83,10 @@ std::uint8_t data_report_id(IrFormat format) {
   return 0x3e;
 }
 
+Duration sample_period(IrFormat format) {
+  return std::chrono::milliseconds(format == IrFormat::full ? 20 : 10);
+}
+
 OutputReport request_stream(IrFormat format) {
   return output({0x12, kEnable, data_report_id(format)});
 }
@@ -95,14 +99,26 @@ OutputReport set_leds(int leds, bool rumble) {
 
 OutputReport rumble_only() { return output({0x10, 0}); }
 
+Step status_step() {
+  return {.report = request_status(), .answer = Answer::status, .purpose = "ask for its status"};
+}
+
 std::vector<Step> greeting_steps(const WiimoteSettings& settings) {
   const auto leds = static_cast<std::uint8_t>(player_leds(settings.player) << 4 | kAcknowledge);
-  return {{.report = request_status(), .answer = Answer::status, .purpose = "ask for its status"},
-          read_memory(false, kCalibrationAddress, kCalibrationSize,
-                      "read the accelerometer's calibration"),
-          read_memory(false, kCalibrationAddress + kCalibrationSize, kCalibrationSize,
-                      "read the calibration's copy"),
-          {.report = output({0x11, leds}), .purpose = "light the player's LED"}};
+  std::vector<Step> steps = {
+      status_step(),
+      read_memory(false, kCalibrationAddress, kCalibrationSize,
+                  "read the accelerometer's calibration"),
+      read_memory(false, kCalibrationCopyAddress, kCalibrationSize, "read the calibration's copy"),
+      {.report = output({0x11, leds}), .purpose = "light the player's LED"}};
+  for (Step& step : steps) step.needed = false;  // it has a camera all the same
+  return steps;
+}
+
+std::vector<Step> late_greeting_steps(const WiimoteSettings& settings) {
+  std::vector<Step> steps = greeting_steps(settings);
+  std::ranges::rotate(steps, steps.begin() + 1);
+  return steps;
 }
 
 std::vector<Step> camera_steps(const WiimoteSettings& settings) {
@@ -113,7 +129,6 @@ std::vector<Step> camera_steps(const WiimoteSettings& settings) {
           write_registers(kSensitivity1, sensitivity.block_1, "write the sensitivity, block 1"),
           write_registers(kSensitivity2, sensitivity.block_2, "write the sensitivity, block 2"),
           write_register(kMode, mode_of(settings.format), "write the camera's format"),
-          {.report = request_stream(settings.format), .answer = Answer::none},
           write_register(kPower, kTracking, "start the camera")};
 }
 

@@ -16,10 +16,6 @@ bool answers(const MemoryReport& memory, const Step& step) {
   return step.answer == Answer::memory && memory.address == (bytes[3] << 8 | bytes[4]);
 }
 
-bool answers(const Acknowledgement& acknowledgement, const Step& step) {
-  return step.answer == Answer::acknowledgement && acknowledgement.command == step.report.bytes[0];
-}
-
 bool as_expected(const MemoryReport& memory, const Step& step) {
   const auto size = static_cast<std::size_t>(memory.size);
   return step.expected.empty() ||
@@ -49,37 +45,45 @@ Progress Exchange::fail(Progress how, const std::string& why) {
   return how;
 }
 
-Progress Exchange::refuse(int error) {
-  return fail(Progress::failed, "the Wiimote refused it with error " + std::to_string(error));
+Progress Exchange::refuse() {
+  if (!steps_.front().needed) return end_step();
+  return fail(Progress::refused, "the Wiimote refused it with error " + std::to_string(refused_));
 }
 
 Progress Exchange::take(const Report& report, Time arrival) {
   if (steps_.empty() || tries_ == 0) return Progress::none;
   const Step& step = steps_.front();
-  if (std::holds_alternative<StatusReport>(report)) {
-    return step.answer == Answer::status ? end_step() : Progress::none;
-  } else if (const auto* acknowledgement = std::get_if<Acknowledgement>(&report)) {
-    if (!answers(*acknowledgement, step)) return Progress::none;
-    if (acknowledgement->error == 0) return end_step();
-    refused_ = acknowledgement->error;  // unless it answers somebody else, and ours is to come
-    next_try_ = std::min(next_try_, arrival + kOursToCome);
-    return Progress::none;
-  } else if (const auto* memory = std::get_if<MemoryReport>(&report)) {
-    if (!answers(*memory, step) || memory->error == kBusy) return Progress::none;
-    if (memory->error != 0) return refuse(memory->error);
-    if (!as_expected(*memory, step)) return fail(Progress::failed, "it is not what was written");
+  if (std::holds_alternative<StatusReport>(report) && step.answer == Answer::status)
     return end_step();
-  }
+  if (const auto* acknowledgement = std::get_if<Acknowledgement>(&report))
+    return take(*acknowledgement, arrival);
+  if (const auto* memory = std::get_if<MemoryReport>(&report)) return take(*memory, arrival);
+  return Progress::none;
+}
+
+/// An error may answer somebody else, and ours is to come.
+Progress Exchange::take(const Acknowledgement& acknowledgement, Time arrival) {
+  if (acknowledgement.command != steps_.front().report.bytes[0]) return Progress::none;
+  const bool done = acknowledgement.error == 0 && steps_.front().answer == Answer::acknowledgement;
+  if (done) return end_step();
+  if (acknowledgement.error != kBusy) refused_ = acknowledgement.error;
+  next_try_ = std::min(next_try_, arrival + kOursToCome);
+  return Progress::none;
+}
+
+Progress Exchange::take(const MemoryReport& memory, Time arrival) {
+  if (!answers(memory, steps_.front()) || memory.error == kBusy) return Progress::none;
+  if (memory.error == 0)
+    return as_expected(memory, steps_.front())
+               ? end_step()
+               : fail(Progress::unequal, "it is not what was written");
+  refused_ = memory.error;
+  next_try_ = arrival;
   return Progress::none;
 }
 
 std::optional<OutputReport> Exchange::next_output(Time now) {
   while (!steps_.empty() && now >= next_try_) {
-    if (steps_.front().answer == Answer::none) {
-      const OutputReport report = steps_.front().report;
-      end_step();
-      return report;
-    }
     const bool refused = refused_ != 0 && tries_ >= kRefusals;
     if (tries_ < patience_.tries && !refused) {
       refused_ = 0;
@@ -87,7 +91,7 @@ std::optional<OutputReport> Exchange::next_output(Time now) {
       next_try_ = now + patience_.timeout;
       return steps_.front().report;
     }
-    timeout_ = refused_ != 0     ? refuse(refused_)
+    timeout_ = refused_ != 0     ? refuse()
                : patience_.go_on ? end_step()
                                  : fail(Progress::deserted, "the Wiimote gave no answer");
   }

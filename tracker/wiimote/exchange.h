@@ -22,7 +22,8 @@ enum class Progress {
   none,      ///< the report answered nothing that was asked
   step,      ///< it ended a step
   finished,  ///< it ended the last one
-  failed,    ///< the step was refused, or the memory is not what was expected; all are dropped
+  refused,   ///< the step was answered by an error; all are dropped
+  unequal,   ///< the memory is not what was expected; all are dropped
   deserted,  ///< no answer came after all tries; all are dropped
 };
 
@@ -36,9 +37,9 @@ class Exchange {
   /// The command to write now, for the first time or again.
   std::optional<OutputReport> next_output(Time now);
   /// What became of the exchange for want of good answers, since the last call: none, finished
-  /// (where it goes on without), failed or deserted.
+  /// (where it goes on without), refused or deserted.
   Progress take_timeout();
-  /// Why it failed or was deserted.
+  /// Why, when it was refused or the memory unequal.
   const std::string& failure() const { return failure_; }
   /// Commands that were sent again.
   std::uint64_t repeated() const { return repeated_; }
@@ -46,9 +47,11 @@ class Exchange {
   Time deadline() const;
 
  private:
+  Progress take(const Acknowledgement& acknowledgement, Time arrival);
+  Progress take(const MemoryReport& memory, Time arrival);
   Progress end_step();
   Progress fail(Progress how, const std::string& why);
-  Progress refuse(int error);
+  Progress refuse();
 
   std::deque<Step> steps_;
   Patience patience_;

@@ -48,6 +48,13 @@ struct LiveWiimoteState {
   std::string trouble;        ///< why there is no device, or what is wrong with it
 };
 
+/// What is wrong now, and for how long there have been no dots: "it is connected, but silent: press
+/// a button on it (12 s without reports)". Empty when nothing is.
+std::string trouble_text(const LiveWiimoteState& state);
+/// "camera started 1 time, 3 commands repeated": what there was of that, and of reports that were
+/// refused or dropped.
+std::string counts_text(const LiveWiimoteState& state);
+
 /// The reader's thread is the only one that touches the device. next(), gone() and state() are
 /// thread-safe; bus, clock and claims must outlive this.
 class LiveWiimote final : public ObservationSource {
@@ -64,12 +71,18 @@ class LiveWiimote final : public ObservationSource {
   void rumble(bool on) { rumble_ = on; }
 
  private:
+  enum class End { stopped, gone, refused, fruitless };
+
   void run(const std::stop_token& stop);
+  std::string not_connected() const;
+  std::unique_ptr<HidDevice> open_one(std::string& trouble);
   std::unique_ptr<HidDevice> find_device(std::string& trouble);
+  bool knows_its_own() const { return !own_.address.empty() || !own_.path.empty(); }
   bool wanted(const HidInfo& found) const;
   void stay_with(const HidInfo& device);
-  /// Whether any sample came.
-  bool read_until_gone(const std::stop_token& stop);
+  End read(std::unique_ptr<HidDevice> device, const std::stop_token& stop);
+  End read_until_the_end(const std::stop_token& stop);
+  void take(const WiimoteSample& sample);
   void wait(const std::stop_token& stop, Duration length);
   void hand_over(const Observation& observation);
   void publish(bool connected, const std::string& trouble);
@@ -81,6 +94,7 @@ class LiveWiimote final : public ObservationSource {
   std::optional<WiimoteReader> reader_;  // of the thread
   HidInfo device_;                       // of the thread; the last that was opened
   HidInfo own_;                          // of the thread; address or path that it stays with
+  bool proven_ = false;                  // of the thread; the device is known, or gave a sample
   std::set<std::string> fruitless_;      // of the thread; paths that gave nothing in this round
   std::atomic<bool> rumble_ = false;
   mutable std::mutex mutex_;  // guards what follows

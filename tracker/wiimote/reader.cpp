@@ -22,7 +22,10 @@ void WiimoteReader::reconnect(std::unique_ptr<HidDevice> device, Time now) {
 }
 
 void WiimoteReader::write_outputs() {
-  while (const auto output = session_.next_output(now_)) refuses_ = !device_->write(output->span());
+  while (const auto output = session_.next_output(now_)) {
+    const auto report = output->span();
+    refuses_ = !device_->write(report) && !device_->write(report);
+  }
 }
 
 std::optional<WiimoteSample> WiimoteReader::next_sample(Time until) {
@@ -33,6 +36,7 @@ std::optional<WiimoteSample> WiimoteReader::next_sample(Time until) {
     const Time wait = std::min(until, std::max(session_.deadline(), now_ + kBreath));
     const HidRead read = device_->read(buffer, wait);
     gone_ = read.status == HidStatus::gone;
+    if (gone_) session_.away(now_);
     if (read.status == HidStatus::report) {
       now_ = std::max(now_, read.arrival);
       const auto sample = session_.take(std::span(buffer).first(read.size), read.arrival);

@@ -27,7 +27,8 @@ class WiimoteReader final : public ObservationSource {
   std::optional<Observation> observation_of(const WiimoteSample& sample) const;
 
   bool gone() const override { return gone_; }
-  /// The device refused what was written to it last: it is gone, or the empty slot of an adapter.
+  /// The device refused twice what was written to it last: it is gone, or the empty slot of an
+  /// adapter.
   bool refuses() const { return refuses_; }
   void disconnect() { device_.reset(), gone_ = true; }
   /// Goes on with the device after it was away.
