@@ -9,6 +9,7 @@ namespace {
 constexpr int kBusy = 4;
 constexpr Duration kOursToCome = std::chrono::milliseconds(30);
 constexpr int kRefusals = 2;  // one may have been somebody else's
+constexpr Duration kShortestTimeout = std::chrono::milliseconds(100);
 
 /// Whether the memory report answers the step's read: the address is the last two of its bytes.
 bool answers(const MemoryReport& memory, const Step& step) {
@@ -30,6 +31,18 @@ void Exchange::begin(std::vector<Step> steps, const Patience& patience) {
   tries_ = refused_ = 0;
   next_try_ = {};
   timeout_ = Progress::none;
+}
+
+/// Four times what answers take. One that comes after its command was sent again would be taken for
+/// that of the next, which then were sent too early, and lost.
+Duration Exchange::timeout() const {
+  if (slowest_ == Duration{}) return patience_.timeout;
+  return std::min(patience_.timeout, std::max(kShortestTimeout, 4 * slowest_));
+}
+
+Progress Exchange::answered(Time arrival) {
+  if (tries_ == 1) slowest_ = std::max(arrival - sent_, slowest_ * 7 / 8);
+  return end_step();
 }
 
 Progress Exchange::end_step() {
@@ -54,7 +67,7 @@ Progress Exchange::take(const Report& report, Time arrival) {
   if (steps_.empty() || tries_ == 0) return Progress::none;
   const Step& step = steps_.front();
   if (std::holds_alternative<StatusReport>(report) && step.answer == Answer::status)
-    return end_step();
+    return answered(arrival);
   if (const auto* acknowledgement = std::get_if<Acknowledgement>(&report))
     return take(*acknowledgement, arrival);
   if (const auto* memory = std::get_if<MemoryReport>(&report)) return take(*memory, arrival);
@@ -65,7 +78,7 @@ Progress Exchange::take(const Report& report, Time arrival) {
 Progress Exchange::take(const Acknowledgement& acknowledgement, Time arrival) {
   if (acknowledgement.command != steps_.front().report.bytes[0]) return Progress::none;
   const bool done = acknowledgement.error == 0 && steps_.front().answer == Answer::acknowledgement;
-  if (done) return end_step();
+  if (done) return answered(arrival);
   if (acknowledgement.error != kBusy) refused_ = acknowledgement.error;
   next_try_ = std::min(next_try_, arrival + kOursToCome);
   return Progress::none;
@@ -75,7 +88,7 @@ Progress Exchange::take(const MemoryReport& memory, Time arrival) {
   if (!answers(memory, steps_.front()) || memory.error == kBusy) return Progress::none;
   if (memory.error == 0)
     return as_expected(memory, steps_.front())
-               ? end_step()
+               ? answered(arrival)
                : fail(Progress::unequal, "it is not what was written");
   refused_ = memory.error;
   next_try_ = arrival;
@@ -88,7 +101,8 @@ std::optional<OutputReport> Exchange::next_output(Time now) {
     if (tries_ < patience_.tries && !refused) {
       refused_ = 0;
       if (++tries_ > 1) ++repeated_;
-      next_try_ = now + patience_.timeout;
+      sent_ = now;
+      next_try_ = now + timeout();
       return steps_.front().report;
     }
     timeout_ = refused_ != 0     ? refuse()

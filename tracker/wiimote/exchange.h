@@ -13,7 +13,7 @@
 namespace vindu {
 
 struct Patience {
-  Duration timeout = std::chrono::milliseconds(250);  ///< replies take up to about 200 (SDL)
+  Duration timeout = std::chrono::milliseconds(250);  ///< at most: replies take up to 200 (SDL)
   int tries = 4;
   bool go_on = false;  ///< without an answer, for devices that give none
 };
@@ -49,13 +49,16 @@ class Exchange {
  private:
   Progress take(const Acknowledgement& acknowledgement, Time arrival);
   Progress take(const MemoryReport& memory, Time arrival);
+  Duration timeout() const;
+  Progress answered(Time arrival);
   Progress end_step();
   Progress fail(Progress how, const std::string& why);
   Progress refuse();
 
   std::deque<Step> steps_;
   Patience patience_;
-  Time next_try_{};
+  Time sent_{}, next_try_{};
+  Duration slowest_{};  // answer, of late
   int tries_ = 0;
   int refused_ = 0;  // the last try, with this error
   Progress timeout_ = Progress::none;
