@@ -19,7 +19,8 @@ CameraState state_of(const LiveWiimote& wiimote) {
           .device = fmt::format("{} ({:04x}:{:04x}), {}", state.device.name, state.device.vendor_id,
                                 state.device.product_id, label_of(state.device)),
           .gaps = state.health.gaps,
-          .trouble = state.trouble};
+          .counts = counts_text(state),
+          .trouble = trouble_text(state)};
 }
 
 }  // namespace
@@ -45,6 +46,17 @@ Cameras::Cameras(const Site& site, const EmulatedRoom& room, Clock& clock,
     : clock_(clock), options_(options) {
   for (const CameraConfig& camera : site.cameras)
     sources_.push_back(open(camera, static_cast<int>(sources_.size()), room));
+}
+
+std::string json_of(const GapCounts& gaps) {
+  std::string text;
+  for (std::size_t cause = 0; cause < gaps.size(); ++cause)
+    if (gaps[cause].gaps)
+      text += fmt::format(R"({}"{}":{{"count":{},"longest_ms":{:.1f},"total_ms":{:.1f}}})",
+                          text.empty() ? "" : ",", name_of(static_cast<GapCause>(cause)),
+                          gaps[cause].gaps, milliseconds(gaps[cause].longest),
+                          milliseconds(gaps[cause].total));
+  return "{" + text + "}";
 }
 
 std::vector<CameraState> Cameras::states() const {
@@ -77,6 +89,7 @@ std::unique_ptr<ObservationSource> Cameras::open_video(const CameraConfig& camer
   CameraState state{.name = camera.name,
                     .device = is_file ? camera.video.file : camera.video.device,
                     .gaps = {},
+                    .counts = {},
                     .trouble = {}};
   states_.emplace_back([video = video.get(), is_file, state]() mutable {
     state.connected = !video->gone();

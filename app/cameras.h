@@ -29,8 +29,12 @@ struct CameraState {
   bool connected = false;
   std::string device;             ///< the last one, for people
   std::optional<GapCounts> gaps;  ///< of a Wiimote's stream
+  std::string counts;             ///< of what else its driver had to do
   std::string trouble;            ///< now; empty when there is none
 };
+
+/// Number, longest and total of the gaps of each cause, as a JSON object.
+std::string json_of(const GapCounts& gaps);
 
 /// Room and clock must outlive this. Bound to one thread.
 class Cameras {

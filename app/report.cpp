@@ -105,16 +105,9 @@ std::string tracking_json(const TrackerCounts& counts) {
 std::string cameras_json(const std::vector<CameraState>& cameras) {
   std::string text;
   for (const CameraState& camera : cameras) {
-    std::string gaps;
-    for (std::size_t cause = 0; cause < camera.gaps.size(); ++cause)
-      if (const GapCount& count = camera.gaps[cause]; count.gaps)
-        gaps +=
-            fmt::format("{}\"{}\": {{\"gaps\": {}, \"total_ms\": {:.1f}, \"longest_ms\": {:.1f}}}",
-                        gaps.empty() ? "" : ", ", name_of(static_cast<GapCause>(cause)), count.gaps,
-                        milliseconds(count.total), milliseconds(count.longest));
-    text += fmt::format("{}{{\"name\": {}, \"trouble\": {}, \"gaps\": {{{}}}}}",
+    text += fmt::format("{}{{\"name\": {}, \"trouble\": {}, \"gaps\": {}}}",
                         text.empty() ? "" : ", ", json_text(camera.name), json_text(camera.trouble),
-                        gaps);
+                        json_of(camera.gaps.value_or(GapCounts{})));
   }
   return text;
 }

@@ -129,7 +129,9 @@ void print_table(const Tracker& tracker, const Cameras& cameras, const Site& sit
                health[i].device_time ? "times by its own clock" : "times by arrival",
                health[i].masks, health[i].moved ? ", was MOVED: calibrate it again" : "");
   for (const CameraState& camera : cameras.states())
-    if (camera.gaps) fmt::print("  {:<10}gaps: {}\n", camera.name, vindu::text_of(*camera.gaps));
+    if (camera.gaps)
+      fmt::print("  {:<10}gaps: {}; {}{}\n", camera.name, vindu::text_of(*camera.gaps),
+                 camera.counts, camera.trouble.empty() ? "" : "; " + camera.trouble);
 }
 
 int track(const TrackCommand& command) {

@@ -22,7 +22,7 @@ constexpr Rgba8 kSlotColours[] = {
     {255, 120, 110, 255}, {120, 220, 130, 255}, {120, 180, 255, 255}, {245, 210, 110, 255}};
 constexpr int kPanelWidth = 560, kMargin = 24;
 constexpr int kSensorWidth = kPanelWidth - 2 * kMargin, kSensorHeight = kSensorWidth * 3 / 4;
-constexpr int kPanelHeight = kSensorHeight + 190;
+constexpr int kPanelHeight = kSensorHeight + 213;
 
 std::string acceleration_text(const WatchedWiimote& wiimote) {
   if (!wiimote.data || !wiimote.data->acceleration_raw) return "";
@@ -102,23 +102,25 @@ void draw_panel(Image& image, int left, const WatchedWiimote& wiimote) {
        {17, kBright});
   line(acceleration_text(wiimote), {17, kSoft});
   line("gaps: " + text_of(wiimote.state.health.gaps), {17, kSoft});
-  if (!wiimote.state.trouble.empty()) line(wiimote.state.trouble, {15, kWarning});
+  line(counts_text(wiimote.state), {17, kSoft});
+  line(trouble_text(wiimote.state), {15, kWarning});
 }
 
 }  // namespace
 
 std::string summary_of(const WatchedWiimote& wiimote) {
-  return fmt::format("{:.0f} reports/s  {}  buttons {}  {}  gaps: {}", wiimote.reports_per_s,
+  const std::string trouble = trouble_text(wiimote.state);
+  return fmt::format("{:.0f} reports/s  {}  buttons {}  {}  gaps: {}; {}{}", wiimote.reports_per_s,
                      battery_text(wiimote), wiimote.data ? text_of(wiimote.data->buttons) : "-",
-                     acceleration_text(wiimote), text_of(wiimote.state.health.gaps));
+                     acceleration_text(wiimote), text_of(wiimote.state.health.gaps),
+                     counts_text(wiimote.state), trouble.empty() ? "" : "\n! " + trouble);
 }
 
 std::string screen_text(const std::vector<WatchedWiimote>& wiimotes) {
   std::string text;
   for (const WatchedWiimote& wiimote : wiimotes)
     text += wiimote.title + "\n" + frame_of(wiimote) + dots_text(wiimote) + "\n" +
-            summary_of(wiimote) + "\n" +
-            (wiimote.state.trouble.empty() ? "" : "! " + wiimote.state.trouble + "\n") + "\n";
+            summary_of(wiimote) + "\n\n";
   return text;
 }
 

@@ -18,7 +18,8 @@ struct WatchedWiimote {
   double reports_per_s = 0;
 };
 
-/// One line of counts: rate, battery, buttons, acceleration, gaps by cause.
+/// One line of counts: rate, battery, buttons, acceleration, gaps by cause, what the driver had to
+/// do; and another of what is wrong, if anything is.
 std::string summary_of(const WatchedWiimote& wiimote);
 
 /// Frames of 64 x 24 characters below each other; dots are the digits of their slots.

@@ -73,12 +73,23 @@ std::string sample_json(int device, const WiimoteSample& sample) {
       raw ? fmt::format("[{},{},{}]", (*raw)[0], (*raw)[1], (*raw)[2]) : "null");
 }
 
+std::string counts_json(int device, const LiveWiimoteState& state) {
+  const WiimoteHealth& health = state.health;
+  return fmt::format(
+      R"({{"device":{},"samples":{},"starts":{},"repeated":{},"refused":{},"dropped":{},)"
+      R"("gaps":{},"trouble":{}}})"
+      "\n",
+      device, health.samples, health.starts, health.repeated, health.refused, state.dropped,
+      json_of(health.gaps), json_text(state.trouble));
+}
+
 /// One device and what it showed last. The reader's thread writes, the screen reads.
 class Watched {
  public:
   Watched(WiimoteBus& devices, WiimoteClaims& claims, const NumberedWiimote& wiimote,
           const WatchOptions& options)
-      : title_(fmt::format("{}  {}", wiimote.number, label_of(wiimote.info))),
+      : number_(wiimote.number),
+        title_(fmt::format("{}  {}", wiimote.number, label_of(wiimote.info))),
         counted_at_(devices.clock().now()),
         live_(devices.bus(), devices.clock(), claims,
               {.camera = wiimote.number - 1,
@@ -86,10 +97,12 @@ class Watched {
                .address = wiimote.info.address,
                .path = wiimote.info.path,
                .settings = settings_of(options, wiimote.number),
-               .on_sample = [this, number = wiimote.number, json = options.json](
-                                const WiimoteSample& sample) { take(number, json, sample); },
+               .on_sample =
+                   [this, json = options.json](const WiimoteSample& sample) { take(json, sample); },
                .tap = {}}) {}
 
+  int number() const { return number_; }
+  LiveWiimoteState state() const { return live_.state(); }
   WatchedWiimote seen_at(Time now) {
     while (live_.next(Time::max())) continue;  // nobody else takes them
     const LiveWiimoteState state = live_.state();
@@ -102,13 +115,14 @@ class Watched {
   }
 
  private:
-  void take(int number, bool json, const WiimoteSample& sample) {
-    if (json) std::fputs(sample_json(number, sample).c_str(), stdout);
+  void take(bool json, const WiimoteSample& sample) {
+    if (json) std::fputs(sample_json(number_, sample).c_str(), stdout);
     const std::lock_guard lock(mutex_);
     data_ = sample.data;
     ++count_;
   }
 
+  int number_;
   std::string title_;
   std::mutex mutex_;
   std::optional<DataReport> data_;
@@ -193,6 +207,13 @@ class Watch {
 
   Time now() { return devices_.clock().now(); }
 
+  /// What each stream was like, a line each.
+  std::string counts_json() const {
+    std::string lines;
+    for (const auto& each : watched_) lines += app::counts_json(each->number(), each->state());
+    return lines;
+  }
+
   std::vector<WatchedWiimote> seen_at(Time now) {
     if (now - looked_at_ >= kLookEvery) look_for_more(now);
     std::vector<WatchedWiimote> seen;
@@ -233,6 +254,7 @@ int watch(const WatchOptions& options) {
     if (options.seconds && seconds(now - begin) >= *options.seconds) break;
     if (!screen.show(watched.seen_at(now), now)) break;
   }
+  if (options.json) fmt::print("{}", watched.counts_json());
   return 0;
 }
 
@@ -253,7 +275,8 @@ void add_wiimote_watch(CLI::App& wiimote, Action& chosen) {
       ->check(check_sensitivity);
   app->add_option("--seconds", options->seconds, "Length (default: until Ctrl-C)")
       ->check(between(0.05, 1e6));
-  app->add_flag("--json", options->json, "A line of JSON a report, nothing else");
+  app->add_flag("--json", options->json,
+                "A line of JSON a report, and at the end one a device with its counts");
   app->add_flag("--no-window", options->no_window, "No window, also where there is a display");
   add_emulated(*app, options->emulated);
   add_emulation(*app, options->emulation);
