@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "app/buttons.h"
+#include "app/cameras.h"
 #include "app/common.h"
 #include "app/stop_signals.h"
 #include "app/wiimote.h"
