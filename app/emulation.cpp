@@ -63,6 +63,7 @@ void add_emulation(CLI::App& app, EmulationOptions& options) {
 void apply(const EmulationOptions& options, Time now, EmulatedRoomOptions& room) {
   if (options.link == "busy") room.wiimote.link = two_on_one_adapter();
   if (options.link == "bad") room.wiimote.link = bad_link();
+  room.wiimote.one_adapter = options.link != "good";
   room.wiimote.kernel = options.kernel;
   for (const std::string& press : options.presses)
     room.presses.push_back(press_from(press, now).value());

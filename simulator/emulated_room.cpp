@@ -56,12 +56,17 @@ EmulatedRoom::EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOpt
                           options.wiimote.glints, options.wiimote.false_dots);
     const Duration late = i < options.late.size() ? options.late[i] : Duration{};
     const auto presses = i == 0 ? options.presses : std::vector<ButtonPress>{};
-    bus_->add(device_options(options.wiimote, seed, site.cameras[i]),
-              [sensor, late, presses](Time time) mutable {
-                SensorView view = sensor.view(time - late);
-                press(presses, time, view);
-                return view;
-              });
+    EmulatedDeviceOptions device = device_options(options.wiimote, seed, site.cameras[i]);
+    if (options.wiimote.one_adapter && site.cameras.size() > 1)
+      device.link.shared = AdapterShare{.place = static_cast<int>(i),
+                                        .of = static_cast<int>(site.cameras.size()),
+                                        .seed = options.wiimote.seed,
+                                        .begin = clock.now()};
+    bus_->add(std::move(device), [sensor, late, presses](Time time) mutable {
+      SensorView view = sensor.view(time - late);
+      press(presses, time, view);
+      return view;
+    });
   }
 }
 

@@ -27,8 +27,9 @@ struct EmulatedWiimoteOptions {
   /// True: streams dots as soon as report 0x33 is asked for; false: the host must start its camera.
   bool camera_already_on = false;
   LinkOptions link;
-  bool kernel = false;   ///< hid-wiimote interferes, and the battery is read every 10 s
-  std::size_t ring = 0;  ///< reports kept for a slow reader; 0: all, hidraw: 64
+  bool one_adapter = false;  ///< for all of a room, whose links then pause in turn
+  bool kernel = false;       ///< hid-wiimote interferes, and the battery is read every 10 s
+  std::size_t ring = 0;      ///< reports kept for a slow reader; 0: all, hidraw: 64
 };
 
 /// The light on the sensor. Bound to one thread.

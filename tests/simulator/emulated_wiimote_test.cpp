@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+
 #include "simulator/emulated_room.h"
 
 namespace vindu {
@@ -178,6 +181,32 @@ TEST_F(EmulatedRoomTest, its_devices_are_found_as_real_ones_are) {
   EXPECT_EQ(found[0].name, "Nintendo RVL-CNT-01");
   EXPECT_NE(found[0].address, found[1].address);
   EXPECT_NE(room_.bus().open(found[1].path), nullptr);
+}
+
+TEST_F(EmulatedRoomTest, its_devices_pause_in_turn_where_they_share_an_adapter) {
+  EmulatedRoomOptions options;
+  options.wiimote.link = two_on_one_adapter();
+  options.wiimote.link.loss = 0;
+  options.wiimote.one_adapter = true;
+  const EmulatedRoom room(site(), clock_, options);
+  std::map<Time, std::size_t> served_again;  // after each pause, and which
+  const std::array wiimotes = {room.connect(0), room.connect(1)};
+  for (const auto& wiimote : wiimotes) wiimote->write(kStream);
+  clock_.sleep_until(Time{std::chrono::seconds(10)});
+  for (std::size_t i = 0; i < wiimotes.size(); ++i)
+    for (Time last = Time::max();;) {
+      const HidRead got = read(*wiimotes[i]);
+      if (got.status != HidStatus::report) break;
+      if (last < got.arrival - milliseconds(15)) served_again[got.arrival] = i;
+      last = got.arrival;
+    }
+  ASSERT_GT(served_again.size(), 300u);
+  std::size_t before = served_again.begin()->second;
+  for (const auto& [time, device] : served_again) {
+    if (time == served_again.begin()->first) continue;
+    ASSERT_EQ(device, 1 - before) << seconds(time.time_since_epoch());
+    before = device;
+  }
 }
 
 TEST_F(EmulatedRoomTest, a_camera_that_is_not_on_shows_no_dots) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -18,6 +19,12 @@ struct Arrivals {
   double mean_ms = 0;
   int lost = 0;
 };
+
+LinkOptions two_without_loss() {
+  LinkOptions options = two_on_one_adapter();
+  options.loss = 0;
+  return options;
+}
 
 Arrivals run_of(const LinkOptions& options, int reports) {
   EmulatedLink link(options, 1);
@@ -62,6 +69,54 @@ TEST(EmulatedLink, two_on_one_adapter_come_in_bursts_as_in_table_5_1) {
   EXPECT_NEAR(share_between(run, 0, 2.3), 4.0 / 14, 0.12);
   EXPECT_GT(share_between(run, 9.5, 11), 0.3);
   EXPECT_EQ(share_between(run, 0, 0.5), 0);
+}
+
+LinkOptions sharing(int place, int of) {
+  LinkOptions options = two_without_loss();
+  options.shared = AdapterShare{.place = place, .of = of, .seed = 7, .begin = Time{}};
+  return options;
+}
+
+/// When it was served again after each pause.
+std::vector<Time> served_again(const LinkOptions& options, std::uint64_t seed) {
+  EmulatedLink link(options, seed);
+  std::vector<Time> ends;
+  Time last = link.carry(Time{}, true).value();
+  for (int i = 1; i < 5000; ++i) {
+    const Time arrival = link.carry(Time{i * kPeriod}, true).value();
+    if (arrival - last > milliseconds(15)) ends.push_back(arrival);
+    last = arrival;
+  }
+  return ends;
+}
+
+/// Whether there is one of the others between any two.
+bool alternate(const std::vector<Time>& ends, const std::vector<Time>& others) {
+  for (std::size_t i = 1; i < ends.size() && ends[i] < others.back(); ++i)
+    if (std::ranges::upper_bound(others, ends[i]) - std::ranges::upper_bound(others, ends[i - 1]) !=
+        1)
+      return false;
+  return ends.size() > 500;
+}
+
+TEST(EmulatedLink, of_two_on_one_adapter_pauses_while_the_other_is_served) {
+  const auto first = served_again(sharing(0, 2), 1), second = served_again(sharing(1, 2), 2);
+  EXPECT_TRUE(alternate(first, second));
+  EXPECT_TRUE(alternate(second, first));
+  EXPECT_FALSE(alternate(served_again(two_without_loss(), 1), served_again(two_without_loss(), 2)))
+      << "links that know nothing of each other";
+}
+
+TEST(EmulatedLink, of_two_on_one_adapter_has_the_bursts_of_table_5_1_in_turn_too) {
+  const Arrivals run = run_of(sharing(0, 2), 20000);
+  EXPECT_NEAR(run.mean_ms, 10.25, 0.01);
+  EXPECT_NEAR(share_between(run, 11.5, 100), 3.0 / 14, 0.08);
+  EXPECT_NEAR(share_between(run, 0, 2.3), 4.0 / 14, 0.12);
+}
+
+TEST(EmulatedLink, of_three_on_one_adapter_waits_longer_than_of_two) {
+  EXPECT_GT(share_between(run_of(sharing(0, 3), 20000), 11.5, 100),
+            share_between(run_of(sharing(0, 2), 20000), 11.5, 100));
 }
 
 TEST(EmulatedLink, of_the_bad_kind_bursts_and_loses_one_report_in_twenty) {

@@ -12,6 +12,14 @@
 
 namespace vindu {
 
+/// Which of the Wiimotes on one adapter this is. All of them have the same seed and beginning.
+struct AdapterShare {
+  int place = 0;  ///< from 0 on
+  int of = 2;     ///< Wiimotes on the adapter
+  std::uint64_t seed = 1;
+  Time begin{};  ///< of the adapter's turns
+};
+
 struct LinkOptions {
   Duration delay = std::chrono::milliseconds(6);         ///< at least, towards this machine
   Duration jitter = std::chrono::microseconds(500);      ///< at most on top, uniform
@@ -25,6 +33,9 @@ struct LinkOptions {
   Duration pause_longest = std::chrono::milliseconds(22);
   Duration burst_gap_shortest = std::chrono::microseconds(550);
   Duration burst_gap_longest = std::chrono::microseconds(2250);
+  /// The others that are served are emulated too: they have their turns while this one pauses.
+  /// Without, it pauses for others that nobody sees.
+  std::optional<AdapterShare> shared{};
 };
 
 /// As measured in the thesis: three pauses in the 142 ms of Table 5.1, and 10.73 ms from report to
@@ -48,10 +59,13 @@ class EmulatedLink {
 
  private:
   void plan_pause(Time after);
-  Duration between(Duration shortest, Duration longest);
+  void plan_turn_of_another();
+  Duration mean_pause() const { return (options_.pause_shortest + options_.pause_longest) / 2; }
 
   LinkOptions options_;
   Random random_;
+  Random turns_;  // the same numbers for all that share the adapter
+  int turn_ = 0;
   Time pause_begin_ = Time::max();
   Time pause_end_ = Time::max();
   bool planned_ = false;
