@@ -154,18 +154,24 @@ TEST_F(LiveWiimoteTest, KeepsADeviceThatIsSilentAndOpensItAnew) {
 TEST_F(LiveWiimoteTest, KeepsADeviceWhoseReportsAreTooShortAndSaysSo) {
   FastClock clock;
   EmulatedHidBus bus(clock);
-  bus.add({}, dot_at(100));
-  LiveWiimoteOptions options = named("left");
-  options.tap = [](std::unique_ptr<HidDevice> handle) {
-    return std::make_unique<ShortReports>(std::move(handle));
-  };
-  LiveWiimote left(bus, clock, claims_, options);
-  EXPECT_TRUE(
-      eventually([&] { return left.state().trouble.find("too short") != std::string::npos; }));
-  const Time begin = clock.now();
-  eventually([&] { return clock.now() - begin > seconds(12); });
-  EXPECT_THAT(left.state().trouble, HasSubstr("too short"));
-  EXPECT_FALSE(left.gone());
+  const std::string address = bus.add({}, dot_at(100)).options().info.address;
+  for (const std::string& wanted : {address, std::string()}) {  // known, or the first that is there
+    std::atomic<int> opened = 0;
+    LiveWiimoteOptions options = named("left", wanted);
+    options.tap = [&](std::unique_ptr<HidDevice> handle) {
+      return ++opened, std::make_unique<ShortReports>(std::move(handle));
+    };
+    LiveWiimote left(bus, clock, claims_, options);
+    const auto too_short = [&] {
+      return left.state().trouble.find("too short") != std::string::npos;
+    };
+    EXPECT_TRUE(eventually(too_short));
+    const Time begin = clock.now();
+    EXPECT_TRUE(eventually([&] { return clock.now() - begin > seconds(12); }));
+    EXPECT_TRUE(too_short());
+    EXPECT_FALSE(left.gone());
+    EXPECT_EQ(opened == 1, wanted == address);
+  }
 }
 
 TEST_F(LiveWiimoteTest, SaysThatADeviceWentAwayWithEmptyBatteries) {

@@ -60,7 +60,7 @@ std::optional<int> step_of(const Dot& dot) {
 struct Overheard {
   std::uint8_t wanted = 0;  ///< the data report that carries dots
   int reads = 0;            ///< answers to reads: each takes the place of a data report
-  bool disturbed = false;   ///< by a status, another data report, or an obeyed command
+  bool disturbed = false;   ///< a status, another data report, an obeyed command
 };
 
 class OverhearingDevice final : public HidDevice {
@@ -77,7 +77,11 @@ class OverhearingDevice final : public HidDevice {
     overheard_.disturbed |= buffer[0] == 0x20 || other_data || obeyed;
     return read;
   }
-  bool write(std::span<const std::uint8_t> report) override { return device_->write(report); }
+  bool write(std::span<const std::uint8_t> report) override {
+    // The driver has found the camera changed, and starts it.
+    overheard_.disturbed |= report[0] == 0x13 || report[0] == 0x16;
+    return device_->write(report);
+  }
 
  private:
   std::unique_ptr<HidDevice> device_;

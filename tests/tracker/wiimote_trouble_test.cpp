@@ -180,6 +180,24 @@ TEST(WiimoteTrouble, StartsACameraThatIsOffThoughItDoesNotLetItselfBeRead) {
   EXPECT_TRUE(connection.shows_the_dot());
 }
 
+TEST(WiimoteTrouble, KeepsTheStreamWhileTheCameraCannotBeMadeAsItShouldBe) {
+  Connection connection;
+  connection.stream();
+  connection.spoil_input = [](std::vector<std::uint8_t>& report) {
+    if (report[0] == 0x21) report[6] ^= 0xff;  // the first byte of what is read back
+  };
+  connection.run(seconds(12));
+  EXPECT_THAT(trouble_of(connection), HasSubstr("end other programs"));
+  for (int moment = 0; moment < 60; ++moment) {
+    if (moment % 6 == 0) connection.device.send_status(connection.now);
+    connection.run(milliseconds(100));
+    EXPECT_LE(connection.now - connection.samples.back().arrival, milliseconds(200)) << moment;
+  }
+  connection.spoil_input = nullptr;
+  connection.run(seconds(3));
+  EXPECT_EQ(trouble_of(connection), "");
+}
+
 TEST(WiimoteTrouble, ReadsOnceMoreWhatWasRefusedOnce) {
   Connection connection;
   refuse_reads(connection, true, 0, 1);

@@ -129,6 +129,7 @@ std::vector<Step> camera_steps(const WiimoteSettings& settings) {
           write_registers(kSensitivity1, sensitivity.block_1, "write the sensitivity, block 1"),
           write_registers(kSensitivity2, sensitivity.block_2, "write the sensitivity, block 2"),
           write_register(kMode, mode_of(settings.format), "write the camera's format"),
+          {.report = request_stream(settings.format), .answer = Answer::none},
           write_register(kPower, kTracking, "start the camera")};
 }
 

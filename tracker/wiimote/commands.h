@@ -27,9 +27,9 @@ struct OutputReport {
   std::span<const std::uint8_t> span() const { return std::span(bytes).first(size); }
 };
 
-enum class Answer { status, memory, acknowledgement };
+enum class Answer { status, memory, acknowledgement, none };
 
-/// A command and the answer that ends it.
+/// A command and the answer that ends it. One without is never the last.
 struct Step {
   OutputReport report;
   Answer answer = Answer::acknowledgement;
@@ -59,7 +59,8 @@ OutputReport rumble_only();  ///< carries nothing but the rumble bit, which the 
 std::vector<Step> greeting_steps(const WiimoteSettings& settings);
 /// The same while the stream runs: its status, which stops the stream, comes last.
 std::vector<Step> late_greeting_steps(const WiimoteSettings& settings);
-/// Switches the camera on and writes its registers; then the stream can be asked for.
+/// Switches the camera on and writes its registers. The stream is asked for together with the last,
+/// so that dots come as soon as there are any: it is no write, and takes no answer to wait for.
 std::vector<Step> camera_steps(const WiimoteSettings& settings);
 /// Reads those registers back.
 std::vector<Step> check_steps(const WiimoteSettings& settings);

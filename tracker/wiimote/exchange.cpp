@@ -97,6 +97,11 @@ Progress Exchange::take(const MemoryReport& memory, Time arrival) {
 
 std::optional<OutputReport> Exchange::next_output(Time now) {
   while (!steps_.empty() && now >= next_try_) {
+    if (steps_.front().answer == Answer::none) {
+      const OutputReport report = steps_.front().report;
+      end_step();
+      return report;
+    }
     const bool refused = refused_ != 0 && tries_ >= kRefusals;
     if (tries_ < patience_.tries && !refused) {
       refused_ = 0;

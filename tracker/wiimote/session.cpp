@@ -89,15 +89,13 @@ void WiimoteSession::begin(Phase phase, Time now) {
       return exchange_.begin(camera_steps(settings_), deaf_ ? kDeaf : kPatient);
     case Phase::streaming:
       gaps_.expect(now);
-      next_request_ = now;
+      next_request_ = std::max(next_request_, now);
       restart_at_ = now + kRestart;
       return go_on(now + kFirstCheck);
     case Phase::checking:
       return exchange_.begin(steps_of_check(now), kChecking);
     case Phase::late_greeting:
       return exchange_.begin(late_greeting_steps(settings_), kChecking);
-    case Phase::resting:
-      rest_until_ = now + kRest;
   }
 }
 
@@ -200,7 +198,9 @@ void WiimoteSession::start_again(Time now) {
   }
   if (++fruitless_starts_ < kManyStarts) return begin(Phase::starting, now);
   refusal_ += "; if that goes on, end other programs that use the Wiimote";
-  begin(Phase::resting, now);
+  fruitless_starts_ = kManyStarts - 2;  // from now on one start, then another rest
+  restart_at_ = std::max(restart_at_, now + kRest);
+  go_on(now + kRest);
 }
 
 /// Somebody else was answered. Where they wrote the answer does not say: the stream shows whether
@@ -308,7 +308,6 @@ std::optional<OutputReport> WiimoteSession::mend_leds(Time now) {
 std::optional<OutputReport> WiimoteSession::choose_output(Time now) {
   if (!std::exchange(begun_, true)) begin(Phase::greeting, now);
   if (std::exchange(rumble_changed_, false)) return rumble_only();
-  if (phase_ == Phase::resting && now >= rest_until_) begin(Phase::greeting, now);
   if (const auto request = watch(now)) return request;
   if (const auto leds = mend_leds(now)) return leds;
   if (phase_ == Phase::streaming && now >= next_check_) begin(Phase::checking, now);
@@ -328,7 +327,6 @@ std::optional<OutputReport> WiimoteSession::next_output(Time now) {
 
 Time WiimoteSession::deadline() const {
   if (!begun_ || rumble_changed_) return {};
-  if (phase_ == Phase::resting) return rest_until_;
   Time next = exchange_.deadline();
   if (watching()) next = std::min(next, next_request_);
   if (phase_ == Phase::streaming) next = std::min(next, next_check_);

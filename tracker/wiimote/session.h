@@ -54,7 +54,7 @@ class WiimoteSession {
   std::optional<OutputReport> next_output(Time now);
   Time deadline() const;
 
-  /// The camera was started, as far as the device says.
+  /// The camera was started, as far as the device says; from then on the stream is watched.
   bool started() const { return watching(); }
   /// As of the last time that this was told of.
   WiimoteHealth health() const;
@@ -71,7 +71,7 @@ class WiimoteSession {
   void rumble(bool on);
 
  private:
-  enum class Phase { resting, greeting, starting, streaming, checking, late_greeting };
+  enum class Phase { greeting, starting, streaming, checking, late_greeting };
 
   bool watching() const { return phase_ >= Phase::streaming; }
   std::string trouble() const;
@@ -108,7 +108,6 @@ class WiimoteSession {
   Time asked_{};         // for it, the last time
   Time restart_at_{};    // unless it comes before
   Time next_check_{};
-  Time rest_until_{};
   Time last_report_{};
   Time last_expected_{};  // sample
   Time last_status_{};
