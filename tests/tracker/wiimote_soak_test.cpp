@@ -180,7 +180,7 @@ class Soak {
   void judge(Duration gap) {
     const Duration recovery = std::exchange(lossy_, !acknowledges_) ? kHardRecovery : kRecovery;
     if (gap <= (fault_ ? fault_->hole : Duration{}) + recovery) return;
-    too_long_.push_back(fault_ ? fault_->name : "no fault");
+    too_long_.emplace_back(fault_ ? fault_->name : "no fault");
     too_long_.back() += ": " + std::to_string(gap / milliseconds(1)) + " ms";
   }
 
