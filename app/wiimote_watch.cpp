@@ -77,11 +77,11 @@ std::string sample_json(int device, const WiimoteSample& sample) {
 std::string counts_json(int device, const LiveWiimoteState& state) {
   const WiimoteHealth& health = state.health;
   return fmt::format(
-      R"({{"device":{},"samples":{},"starts":{},"repeated":{},"refused":{},"dropped":{},)"
+      R"({{"device":{},"samples":{},"starts":{},"repeated":{},"refused":{},"lone":{},"dropped":{},)"
       R"("gaps":{},"trouble":{}}})"
       "\n",
-      device, health.samples, health.starts, health.repeated, health.refused, state.dropped,
-      json_of(health.gaps), json_text(state.trouble));
+      device, health.samples, health.starts, health.repeated, health.refused, health.lone,
+      state.dropped, json_of(health.gaps), json_text(state.trouble));
 }
 
 /// One device and what it showed last. The reader's thread writes, the screen reads.

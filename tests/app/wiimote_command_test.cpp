@@ -90,7 +90,7 @@ TEST_F(WiimoteCommand, TellsAsJsonAtTheEndWhatEachStreamWasLike) {
     EXPECT_THAT(result.out,
                 ContainsRegex(R"(\{"device":)" + device +
                               R"(,"samples":[0-9]+,"starts":[0-9]+,"repeated":[0-9]+,)"
-                              R"("refused":[0-9]+,"dropped":[0-9]+,"gaps":\{.*\},"trouble":")"));
+                              R"("refused":[0-9]+,"lone":[0-9]+,"dropped":[0-9]+,"gaps":\{.*\},"trouble":")"));
 }
 
 TEST_F(WiimoteCommand, WatchesOneAloneInEachFormatAsText) {

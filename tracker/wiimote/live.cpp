@@ -46,7 +46,8 @@ std::string counts_text(const LiveWiimoteState& state) {
   const WiimoteHealth& health = state.health;
   return fmt::format("camera started {} time{}", health.starts, health.starts == 1 ? "" : "s") +
          count_text(health.repeated, "commands repeated") +
-         count_text(health.refused, "reports refused") + count_text(state.dropped, "dropped");
+         count_text(health.refused, "reports refused") + count_text(health.lone, "halves alone") +
+         count_text(state.dropped, "dropped");
 }
 
 bool WiimoteClaims::claim(const std::string& path) {

@@ -54,7 +54,7 @@ std::string WiimoteSession::trouble() const {
 
 WiimoteHealth WiimoteSession::health() const {
   WiimoteHealth health = health_;
-  health.refused += halves_.lone();
+  health.lone = halves_.lone();
   health.repeated = exchange_.repeated();
   health.gaps = gaps_.counts(now_);
   health.open_gap = gaps_.open(now_);

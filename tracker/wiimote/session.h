@@ -24,7 +24,8 @@ bool nearly_empty(const StatusReport& status);
 /// Everything else that is known of a connection.
 struct WiimoteHealth {
   std::uint64_t samples = 0;
-  std::uint64_t refused = 0;   ///< reports that nobody can read, and halves without the other half
+  std::uint64_t refused = 0;   ///< reports that nobody can read
+  std::uint64_t lone = 0;      ///< halves of the full format's samples without the other half
   std::uint64_t starts = 0;    ///< times that the camera was started
   std::uint64_t repeated = 0;  ///< commands that had to be sent again
   GapCounts gaps{};            ///< with the one that is open
