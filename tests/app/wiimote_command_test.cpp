@@ -87,10 +87,10 @@ TEST_F(WiimoteCommand, TellsAsJsonAtTheEndWhatEachStreamWasLike) {
   const ProcessResult result =
       vindu({"wiimote", "watch", "--emulated", "--kernel", "--json", "--seconds", "1.5"});
   for (const std::string device : {"1", "2"})
-    EXPECT_THAT(result.out,
-                ContainsRegex(R"(\{"device":)" + device +
-                              R"(,"samples":[0-9]+,"starts":[0-9]+,"repeated":[0-9]+,)"
-                              R"("refused":[0-9]+,"lone":[0-9]+,"dropped":[0-9]+,"gaps":\{.*\},"trouble":")"));
+    EXPECT_THAT(result.out, ContainsRegex(R"(\{"device":)" + device +
+                                          R"(,"samples":[0-9]+,"starts":[0-9]+,"repeated":[0-9]+,)"
+                                          R"("refused":[0-9]+,"lone":[0-9]+,)"
+                                          R"("dropped":[0-9]+,"gaps":\{.*\},"trouble":")"));
 }
 
 TEST_F(WiimoteCommand, WatchesOneAloneInEachFormatAsText) {
