@@ -21,7 +21,9 @@ fuzz() {
 }
 
 wiimote() {
-  fuzz wiimote 512 "$root"/tracker/wiimote/{commands,exchange,gaps,report,session}.cpp \
+  fuzz wiimote 512 \
+    "$root"/tracker/wiimote/{acceleration,commands,drought,exchange}.cpp \
+    "$root"/tracker/wiimote/{gaps,halves,report,session}.cpp \
     "$root/core/infrared.cpp" -isystem /usr/include/eigen3 -lfmt
 }
 

@@ -117,7 +117,7 @@ std::vector<Step> greeting_steps(const WiimoteSettings& settings) {
 
 std::vector<Step> late_greeting_steps(const WiimoteSettings& settings) {
   std::vector<Step> steps = greeting_steps(settings);
-  std::ranges::rotate(steps, steps.begin() + 1);
+  std::rotate(steps.begin(), steps.begin() + 1, steps.end());
   return steps;
 }
 
