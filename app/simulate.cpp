@@ -315,7 +315,6 @@ void save_sheet(Run& run, const LoopResult& result) {
   std::vector<Moment> pictures;
   for (const auto& [title, frame] : moments)
     pictures.push_back(picture_moment(run, wall, room, title, *frame));
-  make_folder(run.options.out);
   const std::string source =
       run.options.mode == "loop" ? "The eye follows a path" : trackers_in_words(run.site);
   const Image sheet =
@@ -333,6 +332,7 @@ void save_sheet(Run& run, const LoopResult& result) {
 
 int simulate(const SimulateOptions& options) {
   Run run = assemble(options);
+  make_folder(options.out);  // what cannot be made is said before the run
   const LoopResult result = play(run);
   save_sheet(run, result);
   const RunReport report{

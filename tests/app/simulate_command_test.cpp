@@ -98,6 +98,16 @@ TEST_F(SimulateCommand, IsWhatVinduDoesWithoutACommand) {
   EXPECT_THAT(vindu({"--help"}).out, HasSubstr("Without a sub-command: vindu simulate"));
 }
 
+// It would run for 15 seconds, and print their table.
+TEST_F(SimulateCommand, SaysAtOnceThatItsFolderCannotBeMade) {
+  const std::string file = write("file", "");
+  const ProcessResult result =
+      vindu({"simulate", "--headless", "--scale", "0.03", "--out", file + "/out"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr(file + "/out"));
+  EXPECT_THAT(result.out, ::testing::IsEmpty());
+}
+
 TEST_F(SimulateCommand, RefusesToTrackWithoutCameras) {
   const std::string wall = write("wall.toml", R"([wall]
 columns = 1
