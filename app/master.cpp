@@ -408,7 +408,8 @@ void add_master(CLI::App& parent, Action& chosen) {
   app->add_option("--path", command->path_file, "Camera path of the mode loop")->type_name("FILE");
   app->add_option("--seconds", command->seconds, "Length (default: until it is stopped)")
       ->check(between(0.05, 1e8));
-  app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
+  app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them")
+      ->capture_default_str();
   app->add_flag("--tracker-elsewhere", command->tracker_elsewhere,
                 "Leaves the wall file's cameras to vindu track --publish on another host;\n"
                 "without it they are asked while no such tracker is heard");

@@ -188,7 +188,8 @@ void add_record(CLI::App& parent, Action& chosen) {
                   "Go on in FILE.1, FILE.2 ... when a file has grown to this; 0: never "
                   "(default: 100)")
       ->check(between(0.0, 1e6));
-  app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
+  app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them")
+      ->capture_default_str();
   add_emulation(*app, command->emulation);
   app->footer(
       "\nExamples:\n"

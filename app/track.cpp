@@ -207,7 +207,8 @@ void add_track(CLI::App& parent, Action& chosen) {
       ->check(between(1.0, 1000.0));
   app->add_option("--seconds", command->seconds, "Length (default: until Ctrl-C)")
       ->check(between(0.05, 1e8));
-  app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them");
+  app->add_option("--seed", command->seed, "Of the emulated cameras and the person before them")
+      ->capture_default_str();
   add_targets(*app, command->targets);
   add_emulation(*app, command->emulation);
   app->footer(

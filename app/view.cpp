@@ -204,7 +204,7 @@ void add_view(CLI::App& parent, Action& chosen) {
   app->add_flag("--fullscreen", options->fullscreen, "Cover the screen");
   app->add_flag("--json", options->json, "Figures as JSON");
   app->add_option("--seconds", options->seconds, "End by itself")->check(between(0.05, 1e6));
-  app->add_option("--seed", options->seed, "Of the simulated walk");
+  app->add_option("--seed", options->seed, "Of the simulated walk")->capture_default_str();
   add_emulation(*app, options->emulation);
   for (const char* name : {"--link", "--kernel", "--press"}) app->get_option(name)->needs(track);
   app->add_option("--device", options->device, "EGL device (GPU) by its index, without a display");

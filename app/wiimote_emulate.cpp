@@ -162,7 +162,8 @@ void add_wiimote_emulate(CLI::App& wiimote, Action& chosen) {
                   "Every so many seconds one of them goes away for two seconds")
       ->type_name("S")
       ->check(between(3.0, 1e6));
-  app->add_option("--seed", options->seed, "Of the walk and of the cameras' noise");
+  app->add_option("--seed", options->seed, "Of the walk and of the cameras' noise")
+      ->capture_default_str();
   app->footer(
       "\nNeeds /dev/uhid, as root: sudo modprobe uhid. With --verbose every report that somebody\n"
       "writes to one of them is shown, the kernel's own among them.\n"
