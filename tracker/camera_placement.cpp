@@ -49,6 +49,12 @@ std::size_t stride_over(std::size_t poses) {
   return stride;
 }
 
+/// What all cameras but one see, and what each pose is worth by that alone.
+struct Others {
+  Sights sights;
+  std::vector<double> worths;
+};
+
 Sights all_but(const Team& team, std::size_t camera) {
   Sights sum(team.sights.front().size());
   for (std::size_t other = 0; other < team.sights.size(); ++other)
@@ -160,23 +166,35 @@ class Search {
     for (int i = 0; i < count; ++i)
       add(team,
           static_cast<std::size_t>(random.uniform(0, static_cast<double>(candidates_.size()))));
-    team.worth = worth_with(all_but(team, 0), team.sights[0]);
+    team.worth = worth_with(others_of(team, 0), team.sights[0]);
     return team;
   }
 
-  double worth_with(const Sights& others, const Sights& own) const {
+  Others others_of(const Team& team, std::size_t camera) const {
+    Others others{.sights = all_but(team, camera), .worths = {}};
+    for (const Sight& sight : others.sights)
+      others.worths.push_back(worth(bound_of(sight), task_.good_eye_m));
+    return others;
+  }
+
+  /// A camera sees but a part of the room: where it sees no dot it changes nothing.
+  double worth_with(const Others& others, const Sights& own) const {
     double sum = 0;
-    for (std::size_t i = 0; i < others.size(); ++i) {
-      Sight sight = others[i];
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (own[i].dots == 0) {
+        sum += others.worths[i];
+        continue;
+      }
+      Sight sight = others.sights[i];
       sight += own[i];
       sum += worth(bound_of(sight), task_.good_eye_m);
     }
-    return sum / static_cast<double>(others.size());
+    return sum / static_cast<double>(own.size());
   }
 
   /// Puts one camera where it is worth most beside the others. False where it stays.
   bool exchange(Team& team, std::size_t camera) const {
-    const Sights others = all_but(team, camera);
+    const Others others = others_of(team, camera);
     std::optional<std::size_t> better;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       const double value = worth_with(others, candidate_sights_[i]);
@@ -213,7 +231,7 @@ class Search {
   }
 
   bool refine(Team& team, std::size_t camera, double step_m) const {
-    const Sights others = all_but(team, camera);
+    const Others others = others_of(team, camera);
     bool moved = false;
     for (const Mount& mount : neighbours(team.mounts[camera], step_m)) {
       if (!can_look(mount)) continue;
@@ -232,7 +250,7 @@ class Search {
   void refine(Team& team) const {
     for (std::size_t i = 0; i < team.mounts.size(); ++i)
       team.sights[i] = sights_of(team.mounts[i], task_.poses);
-    team.worth = worth_with(all_but(team, 0), team.sights[0]);
+    team.worth = worth_with(others_of(team, 0), team.sights[0]);
     for (double step_m = kFirstStep_m; step_m >= kLastStep_m; step_m /= 2) {
       bool moved = true;
       for (int round = 0; moved && round < kMostRounds; ++round) {
