@@ -52,15 +52,15 @@ class HeadSearch::Contest {
 
   const std::vector<CameraView>& views() const { return views_; }
 
-  /// The next rough pose: those of pairs of cameras, then, where these find nobody, those of single
-  /// ones. Empty: there are no others.
+  /// The next rough pose: those of pairs of cameras, then, where these are not enough, those of
+  /// single ones. Empty: there are no others.
   std::optional<Rigid3> next() {
     while (next_pose_ == poses_.size()) {
       poses_.clear();
       next_pose_ = 0;
       if (next_pair_ < pairs_.size() && !settled())
         poses_ = of_pair(pairs_[next_pair_++]);
-      else if (next_view_ < views_.size() && (next_view_ > 0 || !winner()))
+      else if (next_view_ < views_.size() && (next_view_ > 0 || !sure()))
         poses_ = of_one(views_[next_view_++]);
       else
         return std::nullopt;
@@ -88,7 +88,20 @@ class HeadSearch::Contest {
       if (!fit) return;
       pose = fit->room_from_head;
     }
-    if (sightings_of(labels).size() >= options_.least_dots) judge(*fit, std::move(labels));
+    if (sightings_of(labels).size() >= options_.least_dots &&
+        level_of(fit->dot_information) <= options_.least_level)
+      judge(*fit, std::move(labels));
+  }
+
+  /// What is believed of a tracked head, however few dots it rests on and wherever it faces: others
+  /// must be better by the margin. In the end, for no other is given up for its sake.
+  void enter_believed() {
+    if (!options_.believed) return;
+    Labels labels = label(*options_.believed, 0);
+    const auto sightings = sightings_of(labels);
+    if (sightings.size() < 2) return;
+    if (const auto fit = fit_pose(cameras_, sightings, *options_.believed, prior_))
+      judge(*fit, std::move(labels), /*believed=*/true);
   }
 
   std::optional<FoundHead> winner() {
@@ -110,6 +123,13 @@ class HeadSearch::Contest {
  private:
   /// Whether some pose is fixed by the dots and leaves none over: further pairs can only repeat it.
   bool settled() const { return settled_cost_ < kNoPair; }
+
+  /// Whether there is a winner that many dots agree upon: few may do so by chance.
+  bool sure() {
+    constexpr std::ptrdiff_t kMany = 6;
+    const auto best = winner();
+    return best && std::ssize(sightings_of(best->led_of_dot)) >= kMany;
+  }
 
   std::vector<Rigid3> of_pair(const std::pair<std::size_t, std::size_t>& pair) const {
     return candidates_from_pair(cameras_, views_[pair.first], views_[pair.second], leds_,
@@ -169,9 +189,9 @@ class HeadSearch::Contest {
     return sightings;
   }
 
-  void judge(const PoseFit& fit, Labels labels) {
+  void judge(const PoseFit& fit, Labels labels, bool believed = false) {
+    if (fit.rms_px > options_.largest_rms_px) return;
     const TrackingLevel level = level_of(fit.dot_information);
-    if (level > options_.least_level || fit.rms_px > options_.largest_rms_px) return;
     double cost = fit.cost;
     bool all_explained = true;
     for (std::size_t v = 0; v < views_.size(); ++v) {
@@ -183,7 +203,7 @@ class HeadSearch::Contest {
     }
     if (all_explained && level == TrackingLevel::six_dof)
       settled_cost_ = std::min(settled_cost_, cost);
-    entries_.push_back({fit, level, std::move(labels), cost, kNoPair});
+    entries_.push_back({fit, level, std::move(labels), cost, kNoPair, believed});
   }
 
   static constexpr std::size_t kRounds = 3;
@@ -220,7 +240,10 @@ HeadSearch& HeadSearch::operator=(HeadSearch&&) noexcept = default;
 bool HeadSearch::advance(std::size_t most) {
   for (; most > 0; --most) {
     const auto rough = contest_->next();
-    if (!rough) return true;
+    if (!rough) {
+      contest_->enter_believed();
+      return true;
+    }
     contest_->enter(*rough);
   }
   return false;

@@ -28,6 +28,7 @@ struct AcquisitionOptions {
   double largest_rms_px = 2.5;
   std::size_t least_dots = 3;
   TrackingLevel least_level = TrackingLevel::hybrid;  ///< that the dots alone must reach
+  std::optional<Rigid3> believed = {};                ///< where it is tracked: competes as it is
   std::size_t candidates_kept = 16;                   ///< of each pair of cameras, to be fitted
 };
 
@@ -37,6 +38,7 @@ struct FoundHead {
   std::vector<std::vector<int>> led_of_dot;  ///< for each view, for each dot: its LED or -1
   double cost = 0;                           ///< the lower the better
   double margin = 0;                         ///< over the best rival; infinite without one
+  bool believed = false;                     ///< what was tracked: there is nothing better
 };
 
 /// A look for a head that may be spread over time: rough poses are considered one after the other.

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "tracker/joint/assignment.h"
 
@@ -12,8 +13,12 @@ namespace {
 struct Column {
   int head = 0;
   int led = 0;
+  bool well_seen = false;  ///< the head
   ExpectedDot expected;
 };
+
+/// Of dots and columns.
+using Pair = std::pair<std::size_t, std::size_t>;
 
 bool vague(const HeadState& state, const AssociationOptions& options) {
   const PoseSample sample = sample_of(state);
@@ -33,7 +38,22 @@ bool well_seen(const HeadTrack& head, Time now, const AssociationOptions& option
   return leds >= 3 && seen_by_two(head, now, options);
 }
 
-void move_on(HeadTrack& head, std::size_t leds_of_head, Time to,
+/// Through the two LEDs that alone of more were seen lately, in room: how the head turns about it
+/// shows nowhere.
+std::optional<Vec3> unseen_axis(const HeadTrack& head, std::span<const Vec3> leds_in_head, Time now,
+                                const AssociationOptions& options) {
+  std::array<Vec3, 2> seen;
+  std::size_t count = 0;
+  for (std::size_t led = 0; led < leds_in_head.size(); ++led) {
+    if (now - head.led_seen[led] >= options.coasts_after) continue;
+    if (count == 2) return std::nullopt;
+    seen[count++] = leds_in_head[led];
+  }
+  if (count < 2 || leds_in_head.size() == 2) return std::nullopt;
+  return head.state->room_from_head.rotation * (seen[1] - seen[0]).normalized();
+}
+
+void move_on(HeadTrack& head, std::span<const Vec3> leds_in_head, Time to,
              const AssociationOptions& options) {
   if (!head.state) return;
   MotionNoise noise = options.fixed_noise.value_or(noise_of_motion(*head.state));
@@ -49,8 +69,11 @@ void move_on(HeadTrack& head, std::size_t leds_of_head, Time to,
   const bool moves = seen_by_two(head, to, options);
   const auto leds = static_cast<std::size_t>(std::ranges::count_if(head.led_seen, lately));
   const bool turns = leds >= 2;
-  if (leds >= std::min<std::size_t>(3, leds_of_head)) head.rotation_seen = to;
+  if (leds >= std::min<std::size_t>(3, leds_in_head.size())) head.rotation_seen = to;
   const Duration passed = to - head.state->time;
+  const auto axis = unseen_axis(head, leds_in_head, to, options);
+  if (axis && options.turns && passed > Duration::zero())
+    calm_turning(*head.state, *axis, std::exp(-seconds(passed) / seconds(options.damping)));
   propagate(*head.state, std::max(to, head.state->time), noise,
             {.move_damping = moves ? Duration::zero() : options.damping,
              .turn_damping = turns ? Duration::zero() : options.damping});
@@ -69,23 +92,28 @@ double distance2(const Eigen::Matrix2d& covariance_px2, const Vec2& residual_px)
   return residual_px.dot(covariance_px2.inverse() * residual_px);
 }
 
-std::vector<Column> columns_of(const CameraModel& camera,
+std::vector<Column> columns_of(Time captured, const CameraModel& camera,
                                std::span<const std::vector<Vec3>> leds_of_heads,
-                               std::span<const HeadTrack> heads) {
+                               std::span<const HeadTrack> heads,
+                               const AssociationOptions& options) {
   std::vector<Column> columns;
   for (std::size_t head = 0; head < heads.size(); ++head) {
     if (!heads[head].state) continue;
+    const bool well = well_seen(heads[head], captured, options);
     for (std::size_t led = 0; led < leds_of_heads[head].size(); ++led)
       if (const auto dot = expect_dot(*heads[head].state, camera, leds_of_heads[head][led]))
-        columns.push_back({static_cast<int>(head), static_cast<int>(led), *dot});
+        columns.push_back({static_cast<int>(head), static_cast<int>(led), well, *dot});
   }
   return columns;
 }
 
+/// A known reflection counts only where an LED must be of a head that is well seen: one that is not
+/// would stay with the reflection.
 bool allowed(const TimedDots& seen, std::size_t dot, const Column& column) {
   constexpr double kMustBe_px = 6;
   return !seen.masked[dot] ||
-         (raw_px_of(seen.dots[dot]) - column.expected.raw_px).norm() < kMustBe_px;
+         (column.well_seen &&
+          (raw_px_of(seen.dots[dot]) - column.expected.raw_px).norm() < kMustBe_px);
 }
 
 template <class Cost>
@@ -101,16 +129,44 @@ CostMatrix costs_of(const TimedDots& seen, const std::vector<Column>& columns, C
   return costs;
 }
 
-/// Pairs of dots and columns, the surest first.
-std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const CostMatrix& costs, double gate) {
+double cost_of(const CostMatrix& costs, std::size_t dot, std::size_t column) {
+  return costs(static_cast<Eigen::Index>(dot), static_cast<Eigen::Index>(column));
+}
+
+/// The surest first.
+std::vector<Pair> pairs_of(const CostMatrix& costs, double gate) {
   const std::vector<int> assigned = assign(costs, gate);
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<Pair> pairs;
   for (std::size_t i = 0; i < assigned.size(); ++i)
     if (assigned[i] >= 0) pairs.emplace_back(i, static_cast<std::size_t>(assigned[i]));
-  std::ranges::sort(pairs, {}, [&](const auto& pair) {
-    return costs(static_cast<Eigen::Index>(pair.first), static_cast<Eigen::Index>(pair.second));
-  });
+  std::ranges::sort(pairs, {},
+                    [&](const Pair& pair) { return cost_of(costs, pair.first, pair.second); });
   return pairs;
+}
+
+/// Whether the dot may as well be that of another LED, the LED's another dot, or two pairs
+/// exchanged.
+bool disputed(const CostMatrix& costs, const std::vector<Pair>& pairs, const Pair& pair,
+              const AssociationOptions& options) {
+  const auto [dot, column] = pair;
+  const double own = cost_of(costs, dot, column);
+  const double limit = std::min(options.gate, own + options.clear_by);
+  const auto dots = static_cast<std::size_t>(costs.rows()),
+             columns = static_cast<std::size_t>(costs.cols());
+  for (std::size_t other = 0; other < columns; ++other)
+    if (cost_of(costs, dot, other) < limit &&
+        std::ranges::find(pairs, other, &Pair::second) == pairs.end())
+      return true;
+  for (std::size_t other = 0; other < dots; ++other)
+    if (cost_of(costs, other, column) < limit &&
+        std::ranges::find(pairs, other, &Pair::first) == pairs.end())
+      return true;
+  return std::ranges::any_of(pairs, [&](const Pair& other) {
+    const double here = cost_of(costs, dot, other.second),
+                 there = cost_of(costs, other.first, column);
+    return other != pair && std::max(here, there) < options.gate &&
+           here + there < own + cost_of(costs, other.first, other.second) + options.clear_by;
+  });
 }
 
 void note(HeadTrack& head, const TimedDots& seen, int led) {
@@ -125,26 +181,29 @@ void be_surprised(const CostMatrix& costs, const std::vector<Column>& columns,
   constexpr double kShare = 0.12;  // of one dot in the running mean
   for (const auto& [i, c] : pairs_of(costs, 2 * options.gate)) {
     HeadTrack& head = heads[static_cast<std::size_t>(columns[c].head)];
-    const double square =
-        std::min(costs(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)), options.gate);
+    const double square = std::min(cost_of(costs, i, c), options.gate);
     head.surprise += kShare * (square - 2 - head.surprise);
   }
 }
 
 /// Each correction sharpens what is expected of the next dot, which must still fit.
-std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& camera,
-                                    std::span<const std::vector<Vec3>> leds_of_heads,
-                                    std::span<HeadTrack> heads, const AssociationOptions& options) {
-  const std::vector<Column> columns = columns_of(camera, leds_of_heads, heads);
+Association correct_by(const TimedDots& seen, const CameraModel& camera,
+                       std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
+                       const AssociationOptions& options) {
+  const std::vector<Column> columns =
+      columns_of(seen.captured, camera, leds_of_heads, heads, options);
   const auto in_sigmas = [&](const Column& column, const Vec2& residual_px) {
     if (residual_px.norm() > options.farthest_px) return kNoPair;
     return distance2(column.expected.covariance_px2 + noise_of(seen, column.expected), residual_px);
   };
   const CostMatrix costs = costs_of(seen, columns, in_sigmas);
   be_surprised(costs, columns, heads, options);
-  std::vector<AcceptedDot> accepted;
-  for (const auto& [i, c] : pairs_of(costs, options.gate)) {
-    const auto& [at_head, led, before] = columns[c];
+  Association result;
+  const std::vector<Pair> pairs = pairs_of(costs, options.gate);
+  for (const auto& [i, c] : pairs) {
+    result.disputed[i] = disputed(costs, pairs, {i, c}, options);
+    if (result.disputed[i]) continue;
+    const int at_head = columns[c].head, led = columns[c].led;
     HeadTrack& head = heads[static_cast<std::size_t>(at_head)];
     const auto expected =
         expect_dot(*head.state, camera,
@@ -158,9 +217,9 @@ std::vector<AcceptedDot> correct_by(const TimedDots& seen, const CameraModel& ca
     correct(*head.state, *expected, raw_px_of(seen.dots[i]),
             noise_of(seen, *expected, factor * seen.distrust));
     note(head, seen, led);
-    accepted.push_back({i, at_head, led, residual, expected->raw_px_s, square});
+    result.accepted.push_back({i, at_head, led, residual, expected->raw_px_s, square});
   }
-  return accepted;
+  return result;
 }
 
 /// Two or more dots that stand as the head's LEDs do, but all aside by the same: it is not where it
@@ -187,7 +246,8 @@ bool widen_displaced(const TimedDots& seen, const CameraModel& camera,
                      std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
                      const std::vector<AcceptedDot>& accepted, const AssociationOptions& options) {
   bool any = false;
-  const std::vector<Column> columns = columns_of(camera, leds_of_heads, heads);
+  const std::vector<Column> columns =
+      columns_of(seen.captured, camera, leds_of_heads, heads, options);
   for (std::size_t head = 0; head < heads.size(); ++head) {
     const auto of_head = [&](const auto& part) { return part.head == static_cast<int>(head); };
     if (!heads[head].state || std::ranges::any_of(accepted, of_head)) continue;
@@ -206,12 +266,13 @@ Association associate(const TimedDots& seen, const CameraModel& camera,
                       std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
                       const AssociationOptions& options) {
   for (std::size_t head = 0; head < heads.size(); ++head)
-    move_on(heads[head], leds_of_heads[head].size(), seen.captured, options);
-  Association result;
-  result.accepted = correct_by(seen, camera, leds_of_heads, heads, options);
-  result.widened = options.may_widen && seen.dots.size() >= 2 &&
-                   widen_displaced(seen, camera, leds_of_heads, heads, result.accepted, options);
-  if (result.widened) result.accepted = correct_by(seen, camera, leds_of_heads, heads, options);
+    move_on(heads[head], leds_of_heads[head], seen.captured, options);
+  Association result = correct_by(seen, camera, leds_of_heads, heads, options);
+  if (!options.may_widen || seen.dots.size() < 2 || std::ranges::count(result.disputed, true) > 0 ||
+      !widen_displaced(seen, camera, leds_of_heads, heads, result.accepted, options))
+    return result;
+  result = correct_by(seen, camera, leds_of_heads, heads, options);
+  result.widened = true;
   return result;
 }
 

@@ -40,6 +40,9 @@ struct HeadTrack {
 struct AssociationOptions {
   double gate = 13.8;       ///< squared Mahalanobis distance: 99.9 % of two degrees of freedom
   double farthest_px = 20;  ///< from where it is expected, however uncertain that is
+  /// A dot corrects nothing while another pairing of as many dots is that close to the best one, in
+  /// the same measure: one in a hundred of such choices would be wrong, and stay so.
+  double clear_by = 9;
   /// Of what nobody has seen for so long, the motion dies out with this time constant: of all, when
   /// less than two cameras saw the head; of its turning, when less than two LEDs were seen.
   Duration coasts_after = std::chrono::milliseconds(80);
@@ -75,8 +78,8 @@ struct AcceptedDot {
 
 struct Association {
   std::vector<AcceptedDot> accepted;
-
-  bool widened = false;  ///< nothing fitted until the head was doubted
+  std::array<bool, kMaxDots> disputed{};  ///< dots that may as well be another LED's: none's
+  bool widened = false;                   ///< nothing fitted until the head was doubted
 };
 
 /// Moves all heads on to the time of capture and corrects them by the dots.

@@ -168,6 +168,20 @@ void expect_facing(HeadState& state, Duration passed) {
              -vector_of(state.room_from_head.rotation));
 }
 
+void calm_turning(HeadState& state, const Vec3& axis_in_room, double share_left) {
+  const Mat3 along = axis_in_room * axis_in_room.transpose();
+  const Mat3 kept = Mat3::Identity() - (1 - share_left) * along;
+  for (Vec3* rate : {&state.turn.velocity, &state.turn.acceleration}) *rate = kept * *rate;
+  Mat18& covariance = state.covariance;
+  const Mat3 angles = covariance.block<3, 3>(kRotation, kRotation);
+  for (const int at : {kRotation, kTurning, kTurning + 3}) {
+    covariance.middleRows<3>(at) = (kept * covariance.middleRows<3>(at)).eval();
+    covariance.middleCols<3>(at) = (covariance.middleCols<3>(at) * kept).eval();
+  }
+  covariance.block<3, 3>(kRotation, kRotation) +=
+      (1 - share_left * share_left) * axis_in_room.dot(angles * axis_in_room) * along;
+}
+
 void widen(HeadState& state, bool motion_too) {
   const auto add = [&](int at, double place, double rate, double acceleration) {
     auto diagonal = state.covariance.diagonal();

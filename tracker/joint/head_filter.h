@@ -68,6 +68,10 @@ void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
 /// open of the rotation is drawn there, slowly; what they fix hardly moves.
 void expect_facing(HeadState& state, Duration passed);
 
+/// What nobody sees: how the head turns about an axis (a unit vector) dies out but for that share,
+/// and so does what its other errors say of the angle.
+void calm_turning(HeadState& state, const Vec3& axis_in_room, double share_left);
+
 /// For a head that is found not to be where it should, or set off unforeseen: centimetres and
 /// degrees of doubt, and of its motion where that is asked for.
 void widen(HeadState& state, bool motion_too);

@@ -26,11 +26,11 @@ constexpr Duration kLost = std::chrono::seconds(2);
 constexpr Duration kRemembered = std::chrono::seconds(1);  // a rotation, to place the eye by
 constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
 
-/// The fewer dots agree, the more often they must.
-int looks_needed(const FoundHead& found) {
+/// The fewer dots agree, the more often they must, unless those of a tracked head agree even less.
+int looks_needed(const FoundHead& found, bool contradicted) {
   std::ptrdiff_t dots = 0;
   for (const auto& leds : found.led_of_dot) dots += std::ssize(leds) - std::ranges::count(leds, -1);
-  return dots >= 6 ? 2 : 4;
+  return dots >= 6 || contradicted ? 2 : 4;
 }
 
 bool same_pose(const Rigid3& a, const Rigid3& b) {
@@ -147,7 +147,7 @@ void JointMethod::judge(Entry& entry) {
     const Vec2 raw_px = raw_px_of(entry.seen.dots[i]);
     if (explained[i])
       eye.statics.release(raw_px, entry.seen.captured);
-    else
+    else if (!entry.association.disputed[i])
       eye.statics.watch(raw_px, entry.seen.captured);
   }
   eye.watch.count(entry.association);
@@ -209,8 +209,9 @@ void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t ent
   replay_from_ = std::min(replay_from_, entry);
 }
 
-AcquisitionOptions JointMethod::acquisition_options() const {
+AcquisitionOptions JointMethod::acquisition_options(const HeadTrack& head) const {
   AcquisitionOptions options;
+  if (head.state) options.believed = head.state->room_from_head;
   // Three dots always fit some pose; where there is but one camera, that has to do.
   options.least_dots = cameras_.size() == 1 ? 3 : 4;
   if (!options_.position_only) return options;
@@ -236,6 +237,44 @@ bool JointMethod::doubtful(std::size_t head) const {
   return false;
 }
 
+bool JointMethod::bears(const Entry& entry, std::size_t head) {
+  return std::ranges::any_of(entry.births, [&](const auto& birth) { return birth.first == head; });
+}
+
+/// Whether so few dots are the head's since it was found, and so many nobody's, that the few may
+/// fit by chance. A camera that was bumped says nothing.
+bool JointMethod::contradicted(std::size_t head) const {
+  constexpr Duration kLately = Milliseconds(100);
+  constexpr double kFew = 5, kLeftPerOwn = 0.5;
+  struct Count {
+    double reports = 0, own = 0, left = 0;
+  };
+  std::vector<Count> counts(cameras_.size());
+  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
+    const auto camera = static_cast<std::size_t>(entry->seen.camera);
+    if (entries_.back().seen.captured - entry->seen.captured > kLately || bears(*entry, head) ||
+        !entry->after[head].state)
+      break;
+    if (eyes_[camera].watch.moved()) continue;
+    std::array<bool, kMaxDots> known = entry->seen.masked;
+    for (std::size_t i = 0; i < known.size(); ++i) known[i] |= entry->association.disputed[i];
+    for (const AcceptedDot& dot : entry->association.accepted) {
+      known[dot.dot] = true;
+      counts[camera].own += dot.head == static_cast<int>(head);
+    }
+    ++counts[camera].reports;
+    counts[camera].left += static_cast<double>(
+        std::count(known.begin(),
+                   known.begin() + static_cast<std::ptrdiff_t>(entry->seen.dots.size()), false));
+  }
+  double own = 0, left = 0;
+  for (const Count& count : counts) {
+    own += count.own / std::max(1.0, count.reports);
+    left += count.left / std::max(1.0, count.reports);
+  }
+  return own < kFew && left > kLeftPerOwn * own;
+}
+
 // One that is tracked is looked for as well; where nothing speaks against it, a few rough poses a
 // frame, so that no frame pays for the whole look.
 void JointMethod::look_for(std::size_t head, Time now) {
@@ -258,9 +297,9 @@ void JointMethod::look_for(std::size_t head, Time now) {
   for (const std::size_t i : entries)
     views.push_back(
         view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common)));
-  search.look =
-      Look{HeadSearch(cameras_, std::move(views), leds_of_heads_[head], acquisition_options()),
-           seen.camera, seen.captured, pause == kCheck ? kFew : kAll};
+  search.look = Look{HeadSearch(cameras_, std::move(views), leds_of_heads_[head],
+                                acquisition_options(entries_[newest].after[head])),
+                     seen.camera, seen.captured, pause == kCheck ? kFew : kAll};
 }
 
 void JointMethod::go_on(std::size_t head) {
@@ -287,11 +326,13 @@ void JointMethod::conclude(std::size_t head) {
   judge_cameras(search.look->search.views(), *found);
   const auto& tracked = entries_[*newest].after[head].state;
   const Rigid3& pose = found->fit.room_from_head;
-  if (tracked && same_pose(pose, tracked->room_from_head)) return search.rumour.reset();
+  if (found->believed || (tracked && same_pose(pose, tracked->room_from_head)))
+    return search.rumour.reset();
   const bool again = search.rumour && same_pose(pose, *search.rumour);
   search.rumour = pose;
   search.confirmed = again ? search.confirmed + 1 : 1;
-  if (search.confirmed >= looks_needed(*found)) bear(head, *found, *newest);
+  if (search.confirmed >= looks_needed(*found, tracked && contradicted(head)))
+    bear(head, *found, *newest);
 }
 
 void JointMethod::update(Time now) {
@@ -308,6 +349,7 @@ void JointMethod::update(Time now) {
 // By the dots that each camera's newest report gave.
 TrackingLevel JointMethod::level_now(std::size_t head) const {
   if (options_.position_only) return TrackingLevel::position;
+  if (contradicted(head)) return TrackingLevel::held;
   const auto& state = newest_heads()[head].state;
   Mat6 information = Mat6::Zero();
   std::vector<bool> done(cameras_.size(), false);

@@ -94,8 +94,10 @@ class JointMethod {
   Time common_time() const;
   std::vector<std::size_t> together(Time common) const;
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart) const;
-  AcquisitionOptions acquisition_options() const;
+  AcquisitionOptions acquisition_options(const HeadTrack& head) const;
   bool doubtful(std::size_t head) const;
+  bool contradicted(std::size_t head) const;
+  static bool bears(const Entry& entry, std::size_t head);
   void bear(std::size_t head, const FoundHead& found, std::size_t entry);
   TrackingLevel level_now(std::size_t head) const;
   void judge_cameras(const std::vector<CameraView>& views, const FoundHead& found);

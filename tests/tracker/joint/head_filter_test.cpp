@@ -66,6 +66,19 @@ TEST(HeadFilter, draws_an_open_rotation_to_facing_the_wall_and_leaves_a_known_on
               radians(1));
 }
 
+TEST(HeadFilter, calms_its_turning_about_one_axis_alone) {
+  HeadState state = known_at({}, Time{});
+  state.turn.velocity = {0.8, 0.5, 0};
+  state.covariance(12, 0) = state.covariance(0, 12) = 0.004;
+  const HeadState before = state;
+  calm_turning(state, Vec3::UnitX(), 0.25);
+  EXPECT_LT((state.turn.velocity - Vec3(0.2, 0.5, 0)).norm(), 1e-12);
+  EXPECT_NEAR(state.covariance(12, 12), before.covariance(12, 12) / 16, 1e-12);
+  EXPECT_NEAR(state.covariance(13, 13), before.covariance(13, 13), 1e-12);
+  EXPECT_NEAR(state.covariance(0, 12), 0.001, 1e-12);
+  EXPECT_EQ(state.covariance, state.covariance.transpose());
+}
+
 TEST(HeadFilter, expects_a_dot_as_uncertain_as_it_really_is) {
   const CameraModel camera = cameras_behind(2)[0];
   const Rigid3 head{Quat::Identity(), {0.1, 1.65, 2}};
@@ -115,8 +128,12 @@ TEST(HeadFilter, predicts_a_moving_head_and_leaves_a_still_one) {
 class AssociationTest : public ::testing::Test {
  protected:
   TimedDots seen_of(const Rigid3& head, int camera, Time time) const {
+    return seen_of(head, camera, time, leds_[0]);
+  }
+  TimedDots seen_of(const Rigid3& head, int camera, Time time,
+                    std::span<const Vec3> leds_in_head) const {
     TimedDots seen{.camera = camera, .captured = time, .dots = {}};
-    for (const Vec3& led : leds_[0]) {
+    for (const Vec3& led : leds_in_head) {
       const Vec2 raw_px = dot_of(cameras_[static_cast<std::size_t>(camera)], head, led);
       seen.dots.push_back({std::round(raw_px.x()), std::round(raw_px.y()), 3});
     }
@@ -157,6 +174,54 @@ TEST_F(AssociationTest, takes_a_masked_dot_only_where_an_led_must_be) {
       seen_of({head_.rotation, head_.translation + Vec3(0.02, 0, 0)}, 0, Time{} + milliseconds(20));
   aside.masked.fill(true);
   EXPECT_TRUE(associate(aside, cameras_[0], leds_, heads_).accepted.empty());
+}
+
+TEST_F(AssociationTest, leaves_a_reflection_alone_unless_the_head_is_well_seen) {
+  heads_[0].led_seen.fill(Time{} - seconds(1));
+  TimedDots seen = seen_of(head_, 0, Time{} + milliseconds(10));
+  seen.masked.fill(true);
+  EXPECT_TRUE(associate(seen, cameras_[0], leds_, heads_).accepted.empty());
+}
+
+TEST_F(AssociationTest, lets_a_dot_that_may_be_either_of_two_leds_correct_nothing) {
+  const Vec3 between = 0.5 * (leds_[0][2] + leds_[0][3]);
+  const TimedDots seen = seen_of(head_, 0, Time{} + milliseconds(10), {&between, 1});
+  heads_[0].state->covariance.diagonal().head<3>().setConstant(0.03 * 0.03);
+  const auto result = associate(seen, cameras_[0], leds_, heads_);
+  EXPECT_TRUE(result.accepted.empty());
+  EXPECT_TRUE(result.disputed[0]);
+  EXPECT_LT((heads_[0].state->room_from_head.translation - head_.translation).norm(), 1e-9);
+}
+
+TEST_F(AssociationTest, takes_no_two_dots_that_may_as_well_change_places) {
+  leds_[0][2] = {-0.015, -0.06, 0};
+  leds_[0][3] = {0.015, -0.06, 0};
+  const auto of_two_leds = [&](double sigma_m) {
+    heads_ = {{known_at(head_, Time{}, sigma_m), Time{}}};
+    const TimedDots seen =
+        seen_of(head_, 0, Time{} + milliseconds(10), std::span(leds_[0]).last(2));
+    return associate(seen, cameras_[0], leds_, heads_);
+  };
+  EXPECT_EQ(of_two_leds(0.005).accepted.size(), 2u);
+  const Association vague = of_two_leds(0.06);
+  EXPECT_TRUE(vague.accepted.empty());
+  EXPECT_TRUE(vague.disputed[0] && vague.disputed[1]);
+}
+
+/// Nothing tells how a head turns about the line through the only two LEDs that are seen.
+TEST_F(AssociationTest, stops_a_head_that_turns_about_two_leds) {
+  leds_ = {kThreeLeds};
+  heads_[0].led_seen.fill(Time{} - seconds(1));
+  const Vec3 axis = (kThreeLeds[1] - kThreeLeds[0]).normalized();
+  heads_[0].state->turn.velocity = 2 * axis;
+  for (int i = 1; i <= 50; ++i) {
+    const TimedDots seen =
+        seen_of(head_, i % 2, Time{} + milliseconds(10 * i), std::span(kThreeLeds).first(2));
+    associate(seen, cameras_[static_cast<std::size_t>(i % 2)], leds_, heads_);
+  }
+  ASSERT_TRUE(heads_[0].state);
+  EXPECT_LT(heads_[0].state->turn.velocity.norm(), 0.3);
+  EXPECT_LT(vector_of(heads_[0].state->room_from_head.rotation).norm(), 0.4);  // of 1 rad
 }
 
 TEST_F(AssociationTest, doubts_a_head_of_which_all_dots_stand_aside) {

@@ -117,6 +117,25 @@ TEST_F(JointMethodTest, holds_a_head_that_is_gone_and_finds_it_again_elsewhere) 
   EXPECT_LT(error_m(method, 0, Time{milliseconds(4190)}, elsewhere), 0.01);
 }
 
+TEST_F(JointMethodTest, holds_a_head_of_which_few_dots_are_left_beside_as_many_of_nobody) {
+  const auto level_with = [&](std::size_t dots_of_head) {
+    JointMethod method(configs_, heads_);
+    feed(method, 0, 1, [](double) { return std::vector{walking(0)}; });
+    for (int k = 100; k < 130; ++k)
+      for (int camera = 0; camera < 2; ++camera) {
+        const Observation all = seen_by(camera, {walking(0)}, Time{milliseconds(10 * k)});
+        Observation seen{camera, all.arrival, {}};
+        for (std::size_t i = 0; i < dots_of_head; ++i) seen.dots.push_back(all.dots[i]);
+        seen.dots.push_back({4.0 * k, 100, 3});  // somebody else passes by
+        method.absorb(seen);
+        method.update(all.arrival);
+      }
+    return method.pose(0, Time{milliseconds(1290)})->level;
+  };
+  EXPECT_EQ(level_with(3), TrackingLevel::six_dof);
+  EXPECT_EQ(level_with(1), TrackingLevel::held);
+}
+
 TEST_F(JointMethodTest, tracks_two_people_with_unlike_helmets) {
   heads_.resize(2);
   heads_[1].name = "guest";
