@@ -148,7 +148,7 @@ std::vector<Pair> pairs_of(const CostMatrix& costs, double gate) {
 /// exchanged.
 bool disputed(const CostMatrix& costs, const std::vector<Pair>& pairs, const Pair& pair,
               const AssociationOptions& options) {
-  const auto [dot, column] = pair;
+  const std::size_t dot = pair.first, column = pair.second;
   const double own = cost_of(costs, dot, column);
   const double limit = std::min(options.gate, own + options.clear_by);
   const auto dots = static_cast<std::size_t>(costs.rows()),
