@@ -9,7 +9,6 @@
 #include "app/common.h"
 #include "core/error.h"
 #include "tracker/calibration/head.h"
-#include "tracker/calibration/layout.h"
 
 namespace vindu::app {
 namespace {

@@ -35,16 +35,5 @@ TEST(Layout, OfTwoLedsIsAlwaysAmbiguous) {
   EXPECT_EQ(layout_ambiguity({{0, 0, 0}, {0.1, 0, 0}}).rigid_mm, 0);
 }
 
-TEST(PointFit, FindsTheRotationAndTranslation) {
-  const Rigid3 a_from_b{Quat(Eigen::AngleAxisd(2.0, Vec3(1, -2, 0.5).normalized())), {1, 2, 3}};
-  const std::vector<Vec3> in_b = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
-  std::vector<Vec3> in_a;
-  for (const Vec3& x : in_b) in_a.push_back(a_from_b * x);
-  const PointFit fit = fit_points(in_a, in_b);
-  EXPECT_LT((fit.rotation - a_from_b.rotation.toRotationMatrix()).norm(), 1e-12);
-  EXPECT_LT(fit.rms, 1e-12);
-  EXPECT_NEAR(fit.rotation.determinant(), 1, 1e-12);
-}
-
 }  // namespace
 }  // namespace vindu

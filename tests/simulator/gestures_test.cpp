@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "simulator/person.h"
+#include "tracker/point_fit.h"
 
 namespace vindu {
 namespace {
@@ -260,7 +261,7 @@ std::vector<std::pair<std::string, double>> looks(const std::map<double, Vec3>& 
   for (double t_s = 0; t_s < until_s; t_s += 1 / kRate_hz) {
     const Vec3 point_in_wall = std::prev(points_by_time_s.upper_bound(t_s))->second;
     const Vec3 way = kRoomFromWall * point_in_wall - Vec3(0, 1.65, 2);
-    const Quat rotation = Quat::FromTwoVectors(-Vec3::UnitZ(), way);
+    const Quat rotation = least_turn(-Vec3::UnitZ(), way);
     const Rigid3 pose{rotation, Vec3(0, 1.65, 2) - rotation * kHead.eye_in_head};
     const auto event = detector.absorb(tracked(pose, t_s, random));
     if (event && event->gesture == Gesture::look) found.emplace_back(event->target, t_s);

@@ -8,10 +8,10 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "tracker/calibration/layout.h"
 #include "tracker/calibration/lens.h"
 #include "tracker/calibration/median.h"
 #include "tracker/camera_model.h"
+#include "tracker/point_fit.h"
 
 namespace vindu {
 namespace {

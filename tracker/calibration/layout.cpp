@@ -1,9 +1,10 @@
 #include "tracker/calibration/layout.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "tracker/point_fit.h"
 
 namespace vindu {
 namespace {
@@ -58,27 +59,6 @@ void try_labelling(const std::vector<Vec3>& leds, const std::vector<int>& to,
 }
 
 }  // namespace
-
-PointFit fit_points(const std::vector<Vec3>& in_a, const std::vector<Vec3>& in_b, bool mirrored) {
-  const auto count = static_cast<double>(in_a.size());
-  Vec3 middle_a = Vec3::Zero(), middle_b = Vec3::Zero();
-  for (std::size_t i = 0; i < in_a.size(); ++i)
-    middle_a += in_a[i] / count, middle_b += in_b[i] / count;
-  Mat3 spread = Mat3::Zero();
-  for (std::size_t i = 0; i < in_a.size(); ++i)
-    spread += (in_a[i] - middle_a) * (in_b[i] - middle_b).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double turn = svd.matrixU().determinant() * svd.matrixV().determinant();
-  Vec3 signs(1, 1, (mirrored ? -1 : 1) * (turn < 0 ? -1 : 1));
-  PointFit fit;
-  fit.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  fit.translation = middle_a - fit.rotation * middle_b;
-  double sum2 = 0;
-  for (std::size_t i = 0; i < in_a.size(); ++i)
-    sum2 += (fit.rotation * in_b[i] + fit.translation - in_a[i]).squaredNorm();
-  fit.rms = std::sqrt(sum2 / count);
-  return fit;
-}
 
 LayoutAmbiguity layout_ambiguity(const std::vector<Vec3>& leds_in_body) {
   LayoutAmbiguity worst;

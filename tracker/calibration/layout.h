@@ -20,14 +20,4 @@ constexpr double kAmbiguous_mm = 6;
 /// Of two to sixteen LEDs; fewer than three are ambiguous in any case.
 LayoutAmbiguity layout_ambiguity(const std::vector<Vec3>& leds_in_body);
 
-/// x_in_a = result * x_in_b for as many points, least squares (Kabsch 1976); `mirrored`: the best
-/// with a reflection, as a matrix.
-struct PointFit {
-  Mat3 rotation = Mat3::Identity();
-  Vec3 translation = Vec3::Zero();
-  double rms = 0;
-};
-PointFit fit_points(const std::vector<Vec3>& in_a, const std::vector<Vec3>& in_b,
-                    bool mirrored = false);
-
 }  // namespace vindu

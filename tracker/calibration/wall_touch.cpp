@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "core/error.h"
-#include "tracker/calibration/layout.h"
 #include "tracker/camera_model.h"
+#include "tracker/point_fit.h"
 
 namespace vindu {
 namespace {

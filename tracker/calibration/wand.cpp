@@ -11,6 +11,7 @@
 #include "tracker/calibration/wand_judge.h"
 #include "tracker/calibration/wand_noise.h"
 #include "tracker/calibration/wand_start.h"
+#include "tracker/point_fit.h"
 
 namespace vindu {
 namespace {
@@ -117,8 +118,7 @@ Rigid3 room_from_world(const Capture& capture, const std::vector<CameraConfig>& 
     }
   result.level = up_in_world.norm() > 0.5;
   Quat rotation = first.rotation;
-  if (result.level)
-    rotation = Quat::FromTwoVectors(first.rotation * up_in_world, Vec3::UnitY()) * rotation;
+  if (result.level) rotation = least_turn(first.rotation * up_in_world, Vec3::UnitY()) * rotation;
   double sine = 0, cosine = 0;
   for (std::size_t i = 1; i < cameras.size(); ++i) {
     const Vec3 is = rotation * world.cameras[i].world_from_camera.translation;

@@ -1,10 +1,10 @@
 #include "tracker/joint/candidates.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "tracker/point_fit.h"
 #include "tracker/triangulation.h"
 
 namespace vindu {
@@ -107,23 +107,18 @@ bool upright(const Rigid3& room_from_head) {
 /// Of two LEDs: the least turn from facing the wall that points from one to the other.
 Rigid3 pose_of(const Match& match, std::span<const Vec3> leds,
                const std::vector<MetPoint>& points) {
-  const auto count = static_cast<Eigen::Index>(match.led_point.size());
-  Eigen::Matrix3Xd in_head(3, count), in_room(3, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& [led, point] = match.led_point[static_cast<std::size_t>(i)];
-    in_head.col(i) = leds[led];
-    in_room.col(i) = points[point].x_in_room;
+  std::vector<Vec3> in_head, in_room;
+  for (const auto& [led, point] : match.led_point) {
+    in_head.push_back(leds[led]);
+    in_room.push_back(points[point].x_in_room);
   }
-  if (count >= 3) {
-    const Mat4 matrix = Eigen::umeyama(in_head, in_room, false);
-    return Rigid3::from(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>());
+  if (in_head.size() != 2) {
+    const PointFit fit = fit_points(in_room, in_head);
+    return Rigid3::from(fit.rotation, fit.translation);
   }
-  Rigid3 pose;
-  if (count == 2)
-    pose.rotation =
-        Quat::FromTwoVectors(in_head.col(1) - in_head.col(0), in_room.col(1) - in_room.col(0));
-  pose.translation = in_room.rowwise().mean() - pose.rotation * in_head.rowwise().mean();
-  return pose;
+  const Quat rotation = least_turn(in_head[1] - in_head[0], in_room[1] - in_room[0]);
+  const Vec3 middle_in_head = 0.5 * (in_head[0] + in_head[1]);
+  return {rotation, 0.5 * (in_room[0] + in_room[1]) - rotation * middle_in_head};
 }
 
 cv::Point2d in_plane(const CameraModel& camera, const Vec2& raw_px) {
