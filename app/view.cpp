@@ -34,7 +34,7 @@ PersonOptions walk_before(const Wall& wall, Time start, std::uint64_t seed) {
 
 /// --eye, or the default. Throws Error for one that cannot see the screen.
 Vec3 checked_eye(const ViewOptions& options, const Site& site) {
-  const Vec3 eye_in_wall = options.eye.value_or(site.viewer.default_eye_in_wall);
+  Vec3 eye_in_wall = options.eye.value_or(site.viewer.default_eye_in_wall);
   if (!tile_view(site.wall.tiles.front().corners, eye_in_wall))
     throw Error({fmt::format("{:.3f},{:.3f},{:.3f} is at or behind the screen's plane",
                              eye_in_wall.x(), eye_in_wall.y(), eye_in_wall.z()),

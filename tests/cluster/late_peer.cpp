@@ -19,18 +19,20 @@ namespace {
 time_t late_s = 0;
 }
 
-extern "C" {
-int clock_gettime(clockid_t clock, timespec* time) noexcept {
+// The linker's names, as <ctime> has declared those functions already.
+int late_clock(clockid_t clock, timespec* time) noexcept __asm__("clock_gettime");
+time_t late_time(time_t* result) noexcept __asm__("time");
+
+int late_clock(clockid_t clock, timespec* time) noexcept {
   const long result = syscall(SYS_clock_gettime, clock, time);
   if (clock == CLOCK_REALTIME) time->tv_sec -= late_s;
   return static_cast<int>(result);
 }
-time_t time(time_t* result) noexcept {
+time_t late_time(time_t* result) noexcept {
   timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
+  late_clock(CLOCK_REALTIME, &now);
   if (result) *result = now.tv_sec;
   return now.tv_sec;
-}
 }
 
 int main(int count, char** begin) try {

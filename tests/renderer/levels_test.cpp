@@ -20,7 +20,6 @@ namespace {
 
 using namespace testing;
 using ::testing::Each;
-using ::testing::Le;
 
 Scene with_levels(Scene scene) {
   cut_into_chunks(scene);

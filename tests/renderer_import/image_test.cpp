@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/error.h"
-#include "model_files.h"
+#include "tests/renderer_import/model_files.h"
 
 namespace vindu {
 namespace {

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "core/error.h"
-#include "model_files.h"
 #include "renderer/import.h"
+#include "tests/renderer_import/model_files.h"
 
 namespace vindu {
 namespace {

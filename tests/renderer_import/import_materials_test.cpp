@@ -2,9 +2,9 @@
 // shader.
 #include <gtest/gtest.h>
 
-#include "model_files.h"
 #include "renderer/import.h"
 #include "renderer/surface_kind.h"
+#include "tests/renderer_import/model_files.h"
 
 namespace vindu {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "model_files.h"
 #include "renderer/import.h"
+#include "tests/renderer_import/model_files.h"
 
 namespace vindu {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "model_files.h"
 #include "renderer/import.h"
 #include "renderer/skinning.h"
+#include "tests/renderer_import/model_files.h"
 
 namespace vindu {
 namespace {

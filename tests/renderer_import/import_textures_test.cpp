@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model_files.h"
+#include "tests/renderer_import/model_files.h"
 
 namespace vindu {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "core/error.h"
-#include "model_files.h"
 #include "renderer/import.h"
 #include "renderer/import_geometry.h"
 #include "renderer/import_materials.h"
+#include "tests/renderer_import/model_files.h"
 
 namespace vindu {
 namespace {

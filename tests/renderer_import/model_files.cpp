@@ -1,4 +1,4 @@
-#include "model_files.h"
+#include "tests/renderer_import/model_files.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -15,14 +15,14 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using Bytes = std::vector<std::uint8_t>;
 
-struct Event {
+struct DeviceEvent {
   Time arrival{};
   Bytes bytes;  // empty: the device goes away
 };
 
 /// What was played and written, seen from the test.
 struct Script {
-  std::vector<Event> events;
+  std::vector<DeviceEvent> events;
   std::vector<Bytes> written = {};
   int refuses = 0;  // so many of what is written next
   std::size_t next = 0;
@@ -34,7 +34,7 @@ class PlayedDevice final : public HidDevice {
 
   HidRead read(std::span<std::uint8_t> buffer, Time until) override {
     if (script_.next == script_.events.size()) return {};
-    const Event& event = script_.events[script_.next];
+    const DeviceEvent& event = script_.events[script_.next];
     if (event.arrival > until) return {};
     ++script_.next;
     if (event.bytes.empty()) return {HidStatus::gone, 0, {}};

@@ -13,7 +13,6 @@ using std::chrono::seconds;
 using ::testing::AllOf;
 using testing::Connection;
 using testing::dot_in_the_middle;
-using ::testing::Ge;
 using ::testing::HasSubstr;
 
 const WiimoteSettings kThirdPlayer{.player = 3};

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "scene.h"
+#include "tests/tracker/joint/scene.h"
 #include "tracker/joint/assignment.h"
 
 namespace vindu {
@@ -142,7 +142,7 @@ TEST(FindHead, finds_nobody_in_the_dots_of_a_head_that_is_tracked) {
     head.rotation = Quat(Eigen::AngleAxisd(radians(95), Vec3::UnitY())) * head.rotation;
     auto views = views_of(cameras, head, kThreeLeds, 0.5, random);
     views[0].dots_px.resize(2);
-    views[0].dots_px.push_back({500, 300});  // a lamp that both see
+    views[0].dots_px.emplace_back(500, 300);  // a lamp that both see
     views[1].dots_px.resize(2);
     const auto elsewhere = [&](const std::optional<FoundHead>& found) {
       return found && !found->believed &&

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "scene.h"
+#include "tests/tracker/joint/scene.h"
 
 namespace vindu {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <unsupported/Eigen/AutoDiff>
 
-#include "scene.h"
+#include "tests/tracker/joint/scene.h"
 
 namespace vindu {
 namespace {

@@ -48,8 +48,8 @@ inline std::vector<CameraView> views_of(const std::vector<CameraModel>& cameras,
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     CameraView view{.camera = static_cast<int>(i), .dots_px = {}};
     for (const Vec3& led : leds)
-      view.dots_px.push_back(dot_of(cameras[i], head, led) +
-                             Vec2(random.normal(noise_px), random.normal(noise_px)));
+      view.dots_px.emplace_back(dot_of(cameras[i], head, led) +
+                                Vec2(random.normal(noise_px), random.normal(noise_px)));
     views.push_back(std::move(view));
   }
   return views;
