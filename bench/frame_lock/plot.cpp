@@ -14,7 +14,7 @@ namespace {
 constexpr int kMargin_px = 36, kTop_px = 150, kBottom_px = 64;
 constexpr int kWidth_px = 520, kHeight_px = 400, kGap_px = 100;
 constexpr double kMostTiles = 64;
-constexpr double kLeast_us = 1, kMost_us = 1e5;
+constexpr double kLeast_us = 1, kMost_us = 1e6;
 
 /// One panel: tiles to the right, us upwards, both by their logarithms.
 class Panel {
