@@ -113,6 +113,24 @@ TEST(FindHead, does_with_two_leds_that_both_see_and_a_third_that_one_sees) {
   EXPECT_EQ(found->led_of_dot[1], (std::vector<int>{1, 2}));
 }
 
+/// What is left open, the turn about the line through them, the prior decides.
+TEST(FindHead, finds_a_turned_head_by_two_leds) {
+  const auto cameras = cameras_behind(2);
+  Random random(10);
+  int right = 0;
+  for (int i = 0; i < 300; ++i) {
+    Rigid3 head = random_head(random);
+    head.rotation = Quat(Eigen::AngleAxisd(radians(60), Vec3::UnitY()));
+    auto views = views_of(cameras, head, kFourLeds, 0.3, random);
+    for (CameraView& view : views) view.dots_px.resize(2);
+    const auto found = find_head(cameras, views, kFourLeds);
+    right +=
+        found && (found->fit.room_from_head * kFourLeds[0] - head * kFourLeds[0]).norm() < 0.03;
+  }
+  std::printf("  right in %d of 300\n", right);
+  EXPECT_GE(right, 298);  // 294 where the fit starts from a head that faces the wall
+}
+
 // A second look, with other false dots, is the tracker's remedy for the rest.
 TEST(FindHead, hardly_ever_finds_somebody_in_false_dots) {
   const auto cameras = cameras_behind(2);
