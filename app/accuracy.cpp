@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <thread>
+
+#include "core/parallel.h"
 
 namespace vindu::app {
 namespace {
@@ -69,19 +69,13 @@ std::vector<MovingRow> moving_rows(const AccuracyOptions& options) {
 /// Does all tasks, the last ones first: they take longest.
 void run_all(const std::vector<std::function<void()>>& tasks,
              const std::function<void(double)>& progress) {
-  std::atomic<std::size_t> taken = 0;
   std::mutex mutex;
   std::size_t done = 0;
-  const auto work = [&] {
-    for (std::size_t i = taken++; i < tasks.size(); i = taken++) {
-      tasks[tasks.size() - 1 - i]();
-      const std::lock_guard lock(mutex);
-      progress(static_cast<double>(++done) / static_cast<double>(tasks.size()));
-    }
-  };
-  std::vector<std::jthread> workers;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) workers.emplace_back(work);
-  work();
+  for_each_in_parallel(tasks.size(), [&](std::size_t i) {
+    tasks[tasks.size() - 1 - i]();
+    const std::lock_guard lock(mutex);
+    progress(static_cast<double>(++done) / static_cast<double>(tasks.size()));
+  });
 }
 
 /// What the thesis' method did with its own helmet before two cameras.

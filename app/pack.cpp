@@ -29,6 +29,9 @@ struct PackCommand {
   bool json = false;
 };
 
+/// It uses all cores, and a wall that runs beside it needs them more.
+constexpr int kBehindOthers = 10;
+
 void limit_memory(double memory_mib) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   const auto bytes = static_cast<rlim_t>(memory_mib * 1048576);
@@ -52,6 +55,7 @@ PackLimits limits_of(const PackCommand& command, const std::string& model) {
 /// Returns the file.
 std::string pack_one(const PackCommand& command, const std::string& model) {
   if (command.here) {
+    setpriority(PRIO_PROCESS, 0, kBehindOthers);
     if (command.memory_mib) limit_memory(*command.memory_mib);
     write_scene_file(import_packed(model), command.out);
     return command.out;

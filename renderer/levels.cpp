@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
+#include "core/parallel.h"
 #include "renderer/chunks.h"
 #include "renderer/level_error.h"
 #include "renderer/partition.h"
@@ -24,6 +26,9 @@ constexpr std::size_t kWitnesses = 48;
 /// Errors grow by at least so much from level to level: whatever rounds when they are projected,
 /// their order stays.
 constexpr float kLeastGrowth = 1.001f;
+
+/// Each has a stack and a heap of its own, of 72 MiB addresses, and a packer's are limited.
+constexpr std::size_t kMostThreads = 8;
 
 /// A vertex of full detail, and how far it was off the level before.
 struct Witness {
@@ -87,45 +92,72 @@ class LevelMaker {
  private:
   using Indices = std::vector<std::uint32_t>;
 
+  /// What stands for a group.
+  struct Coarser {
+    Coarsening coarsening;
+    std::vector<Indices> chunks;
+    std::vector<Piece> pieces;  // of the chunks, not yet meshes
+  };
+
   std::vector<Piece> next_level(std::vector<Piece> pieces, const Eigen::Matrix3f& axes) {
-    std::vector<Placed> places;
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      places.push_back({axes * scene_.meshes[pieces[i].mesh].bounds_in_node.center(),
-                        static_cast<std::uint32_t>(i)});
+    std::vector<std::vector<Piece>> groups = groups_of(std::move(pieces), axes);
+    std::vector<std::optional<Coarser>> made(groups.size());
+    for_each_in_parallel(
+        groups.size(), [&](std::size_t group) { made[group] = coarser_than(groups[group]); },
+        kMostThreads);
     std::vector<Piece> next;
-    for (const std::span<Placed> part : compact_parts(places, kChunksTogether)) {
-      std::vector<Piece> group;
-      for (const Placed& placed : part) group.push_back(std::move(pieces[placed.item]));
-      std::ranges::move(coarsened(std::move(group)), std::back_inserter(next));
+    for (std::size_t group = 0; group < groups.size(); ++group) {
+      if (made[group]) groups[group] = replace(groups[group], std::move(*made[group]));
+      made[group].reset();
+      std::ranges::move(groups[group], std::back_inserter(next));
     }
     return next;
   }
 
-  /// What stands for the group from now on: itself where there is nothing to leave out.
-  std::vector<Piece> coarsened(std::vector<Piece> group) {
+  std::vector<std::vector<Piece>> groups_of(std::vector<Piece> pieces,
+                                            const Eigen::Matrix3f& axes) const {
+    std::vector<Placed> places;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      places.push_back({axes * scene_.meshes[pieces[i].mesh].bounds_in_node.center(),
+                        static_cast<std::uint32_t>(i)});
+    std::vector<std::vector<Piece>> groups;
+    for (const std::span<Placed> part : compact_parts(places, kChunksTogether)) {
+      std::vector<Piece>& group = groups.emplace_back();
+      for (const Placed& placed : part) group.push_back(std::move(pieces[placed.item]));
+    }
+    return groups;
+  }
+
+  /// Nothing where there is nothing to leave out. Reentrant.
+  std::optional<Coarser> coarser_than(const std::vector<Piece>& group) const {
     Indices all;
     for (const Piece& piece : group)
       std::ranges::copy(indices_of(scene_, scene_.meshes[piece.mesh]), std::back_inserter(all));
-    if (all.size() <= 3 * kChunkTriangles / 2) return group;
+    if (all.size() <= 3 * kChunkTriangles / 2) return std::nullopt;
     const Indices fewer = simplified(scene_.vertices, all, all.size() / 3 / 2);
     if (fewer.empty() ||
         static_cast<double>(fewer.size()) > kWorthwhile * static_cast<double>(all.size()))
-      return group;
-    std::vector<Indices> chunks = chunks_of(fewer);
+      return std::nullopt;
+    Coarser coarser{.coarsening = {}, .chunks = chunks_of(fewer), .pieces = {}};
+    coarser.pieces.resize(coarser.chunks.size());
     SurfacePatches surface(scene_.vertices);
-    for (const Indices& chunk : chunks) surface.add(chunk);
-    std::vector<Piece> coarser(chunks.size());
-    const Coarsening coarsening = measured(group, surface, coarser);
-    if (!std::isfinite(coarsening.error_in_node)) return group;
+    for (const Indices& chunk : coarser.chunks) surface.add(chunk);
+    coarser.coarsening = measured(group, surface, coarser.pieces);
+    if (!std::isfinite(coarser.coarsening.error_in_node)) return std::nullopt;
+    for (Indices& chunk : coarser.chunks) order_triangles_by_vertices(chunk);
+    for (Piece& piece : coarser.pieces) thin_out(piece.witnesses);
+    return coarser;
+  }
+
+  /// What stands for the group from now on.
+  std::vector<Piece> replace(const std::vector<Piece>& group, Coarser coarser) {
     const int index = static_cast<int>(scene_.coarsenings.size());
-    scene_.coarsenings.push_back(coarsening);
+    scene_.coarsenings.push_back(coarser.coarsening);
     const int material = scene_.meshes[group.front().mesh].material;
     for (const Piece& piece : group) scene_.meshes[piece.mesh].replaced_by = index;
-    for (std::size_t i = 0; i < chunks.size(); ++i) {
-      coarser[i].mesh = add_mesh(std::move(chunks[i]), material, index);
-      thin_out(coarser[i].witnesses);
-    }
-    return coarser;
+    for (std::size_t i = 0; i < coarser.chunks.size(); ++i)
+      coarser.pieces[i].mesh = add_mesh(coarser.chunks[i], material, index);
+    return std::move(coarser.pieces);
   }
 
   std::vector<Indices> chunks_of(const Indices& indices) const {
@@ -181,8 +213,7 @@ class LevelMaker {
            std::numeric_limits<float>::min();
   }
 
-  int add_mesh(Indices indices, int material, int made_by) {
-    order_triangles_by_vertices(indices);
+  int add_mesh(const Indices& indices, int material, int made_by) {
     Mesh mesh{.first_index = static_cast<std::uint32_t>(scene_.indices.size()),
               .index_count = static_cast<std::uint32_t>(indices.size()),
               .material = material,
@@ -228,11 +259,12 @@ Families families_of(const Scene& scene) {
 void make_levels(Scene& scene) {
   const std::vector<bool> shared_place = vertices_of_shared_places(scene.vertices);
   for (const auto& [key, meshes] : families_of(scene)) {
-    std::vector<Piece> pieces;
-    for (const int mesh : meshes) {
-      order_triangles_by_vertices(indices_of(scene, scene.meshes[mesh]));
-      pieces.push_back(leaf_of(scene, mesh));
-    }
+    std::vector<Piece> pieces(meshes.size());
+    const auto make_leaf = [&](std::size_t i) {
+      order_triangles_by_vertices(indices_of(scene, scene.meshes[meshes[i]]));
+      pieces[i] = leaf_of(scene, meshes[i]);
+    };
+    for_each_in_parallel(meshes.size(), make_leaf, kMostThreads);
     LevelMaker(scene, shared_place, key.first).make(std::move(pieces));
   }
   // The coarsest first: its few vertices lie together, and so do those that each level adds.

@@ -293,6 +293,15 @@ TEST(Levels, OfAFacetedBoxStayWholeAndKeepItsEdgesSharp) {
   EXPECT_LT(static_cast<double>(blunt), 0.01 * static_cast<double>(indices.size()));
 }
 
+/// Bit for bit, whatever cores do first: a packed scene is known by its model alone.
+TEST(Levels, AreTheSameEachTime) {
+  const Scene again = with_levels(scan_scene({.triangles = 20000}));
+  EXPECT_EQ(again.indices, scan().indices);
+  ASSERT_EQ(again.coarsenings.size(), scan().coarsenings.size());
+  for (std::size_t i = 0; i < again.coarsenings.size(); ++i)
+    EXPECT_EQ(again.coarsenings[i].error_in_node, scan().coarsenings[i].error_in_node);
+}
+
 TEST(Levels, TakeAMeshWithoutAnyExtentAndAnEmptyScene) {
   Scene point = plate(30, Material{}, [](Vertex& vertex) { vertex.position_in_node.setOnes(); });
   EXPECT_EQ(with_levels(point).triangle_count(), 1800u);
