@@ -20,10 +20,6 @@ bool outside(const Mat4& clip_from_world, const Box3f& box) {
   return beyond(w - clip_from_world.row(2));
 }
 
-bool alike(const GpuScene::Draw& a, const GpuScene::Draw& b) {
-  return a.node == b.node && a.mesh.material == b.mesh.material && a.mesh.skinned == b.mesh.skinned;
-}
-
 }  // namespace
 
 DrawCount& DrawCount::operator+=(const DrawCount& other) {
@@ -34,28 +30,28 @@ DrawCount& DrawCount::operator+=(const DrawCount& other) {
   return *this;
 }
 
-void add_to_batches(const GpuScene::Draw& draw, bool keep_order, std::vector<Batch>& batches) {
-  const auto begin = keep_order && !batches.empty() ? batches.end() - 1 : batches.begin();
-  auto batch = std::find_if(begin, batches.end(),
-                            [&](const Batch& other) { return alike(*other.first, draw); });
-  if (batch == batches.end())
-    batch = batches.insert(batch, {.first = &draw, .counts = {}, .offsets = {}});
+void BatchList::add(const GpuScene::Draw& draw) {
+  std::size_t& batch = batch_of_[draw.group];
+  if (batch == kNone || (keep_order_ && batch + 1 != batches_.size())) {
+    batch = batches_.size();
+    batches_.push_back({.first = &draw, .counts = {}, .offsets = {}});
+  }
   const auto offset = static_cast<std::uintptr_t>(draw.mesh.first_index) * sizeof(std::uint32_t);
-  batch->counts.push_back(static_cast<GLsizei>(draw.mesh.index_count));
-  batch->offsets.push_back(reinterpret_cast<const void*>(offset));
+  batches_[batch].counts.push_back(static_cast<GLsizei>(draw.mesh.index_count));
+  batches_[batch].offsets.push_back(reinterpret_cast<const void*>(offset));
 }
 
 std::vector<Batch> batches_in_view(const View& view, const GpuScene& scene, bool blended,
                                    DrawCount& count) {
-  std::vector<Batch> batches;
+  BatchList batches(scene, blended);
   const GpuScene::Order& order = scene.order_for(view.eye_in_world, view.detail);
   for (const GpuScene::Draw* draw : blended ? order.blended : order.solid) {
     const bool culled = outside(view.clip_from_world, scene.bounds_in_world(*draw));
     const std::uint64_t triangles = draw->mesh.index_count / 3;
     count += {1, culled, triangles, culled ? triangles : 0};
-    if (!culled) add_to_batches(*draw, blended, batches);
+    if (!culled) batches.add(*draw);
   }
-  return batches;
+  return batches.take();
 }
 
 bool casts_shadow(const GpuScene::Draw& draw) {
@@ -63,8 +59,8 @@ bool casts_shadow(const GpuScene::Draw& draw) {
 }
 
 bool sees_lit(const View& view, const GpuScene& scene) {
-  return std::ranges::any_of(scene.draws(), [&](const GpuScene::Draw& draw) {
-    return is_lit(draw) && !outside(view.clip_from_world, scene.bounds_in_world(draw));
+  return std::ranges::any_of(scene.coarsest(), [&](const GpuScene::Draw* draw) {
+    return is_lit(*draw) && !outside(view.clip_from_world, scene.extent_in_world(*draw));
   });
 }
 

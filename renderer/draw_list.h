@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "renderer/gpu_scene.h"
@@ -42,7 +44,22 @@ inline bool is_lit(const GpuScene::Draw& draw) { return !(draw.kind & kUnlit); }
 /// Something of the scene that the view sees is lit.
 bool sees_lit(const View& view, const GpuScene& scene);
 
-/// Joins the draw to its like: to any for solid ones, only to the last where order matters.
-void add_to_batches(const GpuScene::Draw& draw, bool keep_order, std::vector<Batch>& batches);
+/// Joins draws to batches of their like, in the order of each batch's first.
+class BatchList {
+ public:
+  /// `keep_order`: a draw joins only the last batch.
+  explicit BatchList(const GpuScene& scene, bool keep_order = false)
+      : keep_order_(keep_order), batch_of_(scene.group_count(), kNone) {}
+
+  void add(const GpuScene::Draw& draw);
+  std::vector<Batch> take() { return std::move(batches_); }
+
+ private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  bool keep_order_;
+  std::vector<std::size_t> batch_of_;  // of each group of draws
+  std::vector<Batch> batches_;
+};
 
 }  // namespace vindu

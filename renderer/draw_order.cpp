@@ -17,17 +17,41 @@ std::vector<const GpuScene::Draw*> sorted(std::vector<Keyed>& keyed) {
 
 }  // namespace
 
+/// From the coarsest level to finer ones, where it is not fine enough: what a scene has in more
+/// detail than is shown costs nothing. An error never grows and bounds never do on this way, so
+/// what is fine has nothing below it that is not.
 template <class Fine>
 std::vector<const GpuScene::Draw*> GpuScene::chosen_where(Fine fine) const {
-  std::vector<char> is_fine;
-  is_fine.reserve(coarsenings_.size());
-  for (const PosedCoarsening& posed : coarsenings_) is_fine.push_back(fine(posed));
+  enum : char { kUnknown, kFine, kCoarse };
+  std::vector<char> known(coarsenings_.size(), kUnknown);
+  std::vector<int> too_coarse;
   std::vector<const Draw*> chosen;
-  for (const Draw& draw : draws_)
-    if ((draw.made_by < 0 || is_fine[draw.made_by]) &&
-        (draw.replaced_by < 0 || !is_fine[draw.replaced_by]))
-      chosen.push_back(&draw);
+  const auto consider = [&](int index) {
+    const Draw& draw = draws_[index];
+    if (draw.made_by >= 0 && known[draw.made_by] == kUnknown) {
+      known[draw.made_by] = fine(coarsenings_[draw.made_by]) ? kFine : kCoarse;
+      if (known[draw.made_by] == kCoarse) too_coarse.push_back(draw.made_by);
+    }
+    if (draw.made_by < 0 || known[draw.made_by] == kFine) chosen.push_back(&draw);
+  };
+  for (const int index : coarsest_) consider(index);
+  while (!too_coarse.empty()) {
+    const PosedCoarsening& posed = coarsenings_[too_coarse.back()];
+    too_coarse.pop_back();
+    for (const int index : posed.finer) consider(index);
+  }
   return chosen;
+}
+
+std::vector<const GpuScene::Draw*> GpuScene::coarsest() const {
+  std::vector<const Draw*> draws;
+  for (const int index : coarsest_) draws.push_back(&draws_[index]);
+  return draws;
+}
+
+const Box3f& GpuScene::extent_in_world(const Draw& coarsest) const {
+  return coarsest.made_by < 0 ? bounds_in_world(coarsest)
+                              : coarsenings_[coarsest.made_by].bounds_in_world;
 }
 
 std::vector<const GpuScene::Draw*> GpuScene::draws_within(double error_m) const {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "core/error.h"
 #include "renderer/gl/convert.h"
@@ -153,14 +154,14 @@ void GpuScene::list_draws(const PackedScene& packed) {
       const auto [at, is_new] =
           posed.try_emplace(coarsening, static_cast<int>(coarsenings_.size()));
       if (is_new)
-        coarsenings_.push_back({static_cast<int>(node), scene.coarsenings[coarsening], {}, 0});
+        coarsenings_.push_back({static_cast<int>(node), scene.coarsenings[coarsening], {}});
       return at->second;
     };
     for (const int index : scene.nodes[node].meshes) {
       const Mesh& mesh = scene.meshes[index];
       const Material& material = scene.materials[mesh.material];
       draws_.push_back({static_cast<int>(node), mesh, material.alpha_mode, material.double_sided,
-                        kind_of(material) | (mesh.skinned ? kSkinned : 0u),
+                        kind_of(material) | (mesh.skinned ? kSkinned : 0u), 0,
                         packed.joint_boxes[index], pose_of(mesh.made_by),
                         pose_of(mesh.replaced_by)});
     }
@@ -168,6 +169,21 @@ void GpuScene::list_draws(const PackedScene& packed) {
   std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
     return std::pair(a.alpha_mode, a.mesh.material) < std::pair(b.alpha_mode, b.mesh.material);
   });
+  link_draws();
+}
+
+void GpuScene::link_draws() {
+  std::map<std::tuple<int, int, bool>, int> groups;
+  for (std::size_t i = 0; i < draws_.size(); ++i) {
+    Draw& draw = draws_[i];
+    const std::tuple group(draw.node, draw.mesh.material, draw.mesh.skinned);
+    draw.group = groups.try_emplace(group, static_cast<int>(groups.size())).first->second;
+    const int index = static_cast<int>(i);
+    if (draw.mesh.skinned) skinned_.push_back(index);
+    (draw.replaced_by < 0 ? coarsest_ : coarsenings_[draw.replaced_by].finer).push_back(index);
+  }
+  group_count_ = static_cast<int>(groups.size());
+  boxes_.resize(draws_.size());
 }
 
 void GpuScene::add_geometry(const PackedGeometry& geometry, Upload& upload) {
@@ -243,7 +259,11 @@ void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s, int c
   world_from_nodes_ = std::move(world_from_nodes);
   glNamedBufferSubData(nodes_.name(), 0, static_cast<GLsizeiptr>(blocks.size()), blocks.data());
   skin_.pose(world_from_nodes_);
-  place_draws();
+  place_skinned();
+  place_coarsenings();
+}
+
+void GpuScene::place_coarsenings() {
   int node = -1;
   double stretch = 0;
   for (PosedCoarsening& posed : coarsenings_) {
@@ -255,15 +275,19 @@ void GpuScene::pose(const Mat4& world_from_scene, double animation_time_s, int c
   }
 }
 
-void GpuScene::place_draws() {
-  bounds_in_world_.clear();
+const Box3f& GpuScene::bounds_in_world(const Draw& draw) const {
+  PosedBox& box = boxes_[static_cast<std::size_t>(&draw - draws_.data())];
+  if (box.moves != moves_)
+    box = {moves_, draw.mesh.skinned
+                       ? skin_.bounds_in_world(draw.joints)
+                       : moved(draw.mesh.bounds_in_node, world_from_nodes_[draw.node])};
+  return box.in_world;
+}
+
+void GpuScene::place_skinned() {
   std::vector<std::optional<Facing>> facings(world_from_nodes_.size());
-  for (const Draw& draw : draws_) {
-    if (!draw.mesh.skinned) {
-      bounds_in_world_.push_back(moved(draw.mesh.bounds_in_node, world_from_nodes_[draw.node]));
-      continue;
-    }
-    bounds_in_world_.push_back(skin_.bounds_in_world(draw.joints));
+  for (const int index : skinned_) {
+    const Draw& draw = draws_[index];
     std::optional<Facing>& facing = facings[static_cast<std::size_t>(draw.node)];
     for (const JointBox& box : draw.joints) {
       const Facing own = skin_.mirrored(box.joint) ? Facing::mirrored : Facing::front;

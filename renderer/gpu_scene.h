@@ -36,6 +36,7 @@ class GpuScene {
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
     SurfaceKind kind = 0;
+    int group = 0;                   ///< of one node and material, all skinned or none
     std::vector<JointBox> joints{};  ///< of a skinned mesh
     // As Mesh::made_by and replaced_by, at this node.
     int made_by = -1;
@@ -43,10 +44,13 @@ class GpuScene {
   };
   /// Of all levels of detail; opaque, then masked, then blended.
   const std::vector<Draw>& draws() const { return draws_; }
-  /// Around the draw's mesh as it is posed.
-  const Box3f& bounds_in_world(const Draw& draw) const {
-    return bounds_in_world_[&draw - draws_.data()];
-  }
+  int group_count() const { return group_count_; }
+  /// Around the draw's mesh as it is posed; worked out when it is asked for.
+  const Box3f& bounds_in_world(const Draw& draw) const;
+  /// The coarsest level of every surface.
+  std::vector<const Draw*> coarsest() const;
+  /// Around all that one of these stands for, full detail included.
+  const Box3f& extent_in_world(const Draw& coarsest) const;
   /// Which side of a draw's triangles looks outwards; the same for all skinned draws of a node.
   enum class Facing { front, mirrored, mixed };
   Facing facing(const Draw& draw) const {
@@ -85,19 +89,28 @@ class GpuScene {
   void add_lights(std::span<const Rgba8> colours, Upload& upload);
   void add_materials(const SceneOutline& scene, Style style);
   void list_draws(const PackedScene& packed);
-  void place_draws();
+  void link_draws();
+  void place_skinned();
+  void place_coarsenings();
   template <class Fine>
   std::vector<const Draw*> chosen_where(Fine fine) const;
 
   SceneOutline skeleton_;  // nodes and animations
   std::size_t triangle_count_ = 0;
   std::vector<Draw> draws_;
-  std::vector<Box3f> bounds_in_world_;  // of each draw
+  int group_count_ = 0;
+  std::vector<int> skinned_, coarsest_;  // of the draws
+  struct PosedBox {
+    std::uint64_t moves = 0;  // after how many it was worked out
+    Box3f in_world;
+  };
+  mutable std::vector<PosedBox> boxes_;  // of each draw
   struct PosedCoarsening {
     int node = 0;
     Coarsening in_node;
     Box3f bounds_in_world;
     double error_m = 0;
+    std::vector<int> finer{};  // the draws that it replaces
   };
   std::vector<PosedCoarsening> coarsenings_;
   mutable std::optional<Order> cached_order_;

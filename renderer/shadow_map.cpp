@@ -96,9 +96,9 @@ void ShadowMap::update(std::span<const GpuScene* const> scenes, const Box3f& reg
   drawn_ = std::move(stands);
   Box3f receivers, casters;
   for (const GpuScene* scene : scenes)
-    for (const GpuScene::Draw& draw : scene->draws()) {
-      if (is_lit(draw)) receivers.extend(scene->bounds_in_world(draw));
-      if (casts_shadow(draw)) casters.extend(scene->bounds_in_world(draw));
+    for (const GpuScene::Draw* draw : scene->coarsest()) {
+      if (is_lit(*draw)) receivers.extend(scene->extent_in_world(*draw));
+      if (casts_shadow(*draw)) casters.extend(scene->extent_in_world(*draw));
     }
   receivers = receivers.intersection(region_in_world);
   in_use_ = !receivers.isEmpty() && !casters.isEmpty();
@@ -120,11 +120,11 @@ void ShadowMap::draw(std::span<const GpuScene* const> scenes) const {
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   for (const GpuScene* scene : scenes) {
-    std::vector<Batch> batches;
+    BatchList batches(*scene);
     for (const GpuScene::Draw* draw : scene->draws_within(largest_error_m()))
-      if (casts_shadow(*draw)) add_to_batches(*draw, false, batches);
+      if (casts_shadow(*draw)) batches.add(*draw);
     scene->bind();
-    for (const Batch& batch : batches) {
+    for (const Batch& batch : batches.take()) {
       const SurfaceKind kind = caster_kind(batch.first->kind);
       const gl::Program& program = programs_.of(kind);
       program.set("clip_from_world", gl::mat4_from(clip_from_world));

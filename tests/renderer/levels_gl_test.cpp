@@ -1,7 +1,10 @@
 // Levels of detail in pictures: without holes, as full detail looks, and the same on every tile.
 #include "renderer/levels.h"
 
+#include <gmock/gmock.h>
+
 #include <cstdio>
+#include <set>
 
 #include "bench/detail/scan.h"
 #include "renderer/chunks.h"
@@ -123,6 +126,25 @@ TEST_F(LevelsGl, LookLikeFullDetailWithFewerTriangles) {
       EXPECT_LT(levels.triangles, full.triangles);
     }
   }
+}
+
+/// Against the definition, read off every draw there is.
+TEST_F(LevelsGl, AreChosenFromTheTopAsTheyAreDefined) {
+  GpuScene scene = uploaded(pack(scan()), Look{Style::unlit});
+  scene.pose(Mat4::Identity(), 0);
+  for (const double error_m : {0.0, 0.003, 0.01, 0.05, 1e6}) {
+    const auto is_fine = [&](int coarsening) {
+      return scan().coarsenings[coarsening].error_in_node <= error_m;
+    };
+    std::set<const GpuScene::Draw*> expected;
+    for (const GpuScene::Draw& draw : scene.draws())
+      if ((draw.mesh.made_by < 0 || is_fine(draw.mesh.made_by)) &&
+          (draw.mesh.replaced_by < 0 || !is_fine(draw.mesh.replaced_by)))
+        expected.insert(&draw);
+    EXPECT_THAT(scene.draws_within(error_m), ::testing::UnorderedElementsAreArray(expected))
+        << error_m;
+  }
+  EXPECT_THAT(scene.coarsest(), ::testing::UnorderedElementsAreArray(scene.draws_within(1e6)));
 }
 
 TEST_F(LevelsGl, MeetAtTheSeamsOfTiles) {
