@@ -24,6 +24,7 @@
 #include "renderer/import_file.h"
 #include "renderer/levels.h"
 #include "renderer/scene_cache.h"
+#include "renderer/still_parts.h"
 
 namespace vindu::app {
 namespace {
@@ -136,6 +137,7 @@ PackLimits limits_for(const std::string& model) {
 
 PackedScene import_packed(const std::string& model) try {
   ImportResult imported = import_scene(model);
+  join_still_parts(imported.scene);
   cut_into_chunks(imported.scene);
   make_levels(imported.scene);
   PackedScene packed = pack(std::move(imported.scene));

@@ -1,6 +1,7 @@
 // What a frame of the whole wall costs in one process: 28 tiles against the same pixels as one
-// picture, lit and unlit, of the show; and what one pixel of a lit surface costs. The counters are
-// the ratio and what was culled; the pictures that were timed are kept beside the program.
+// picture, lit and unlit, of the show; what one pixel of a lit surface costs; and what many parts
+// do. The counters are the ratio and what was culled; the pictures that were timed are kept beside
+// the program.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "renderer/chunks.h"
 #include "renderer/import.h"
 #include "renderer/resources.h"
+#include "renderer/still_parts.h"
 #include "renderer/surface.h"
 #include "renderer/wall_renderer.h"
 
@@ -144,6 +146,54 @@ BENCHMARK_CAPTURE(lit_plate, five_textures, Look{Style::lit, 1, Shadows::none},
                    TextureRole::occlusion, TextureRole::emissive})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
+
+/// A block of 22 x 22 x 22 small boxes, each at a node of its own, of 20 materials: as buildings
+/// come from the programs of architects.
+Scene parts() {
+  Scene scene;
+  scene.materials.resize(20);
+  for (Material& material : scene.materials) material.double_sided = true;
+  scene.nodes.emplace_back();
+  constexpr int kSide = 22;
+  for (int part = 0; part < kSide * kSide * kSide; ++part) {
+    const auto first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
+    const auto first_index = static_cast<std::uint32_t>(scene.indices.size());
+    for (int corner = 0; corner < 8; ++corner)
+      scene.vertices.push_back(
+          {.position_in_node = {corner & 1 ? 0.035f : 0.0f, corner & 2 ? 0.035f : 0.0f,
+                                corner & 4 ? 0.035f : 0.0f}});
+    for (const std::uint32_t corner : {0, 1, 3, 0, 3, 2, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                       2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 3, 7, 1, 7, 5})
+      scene.indices.push_back(first_vertex + corner);
+    scene.meshes.push_back(
+        {.first_index = first_index,
+         .index_count = 36,
+         .material = part % 20,
+         .bounds_in_node = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Constant(0.035f)}});
+    Node node{.name = {}, .parent = 0, .meshes = {part}};
+    const Eigen::Array3i place(part % kSide, part / kSide % kSide, part / kSide / kSide);
+    node.parent_from_node.topRightCorner<3, 1>() =
+        0.05f * (place - Eigen::Array3i(11, 11, 25)).cast<float>();
+    scene.nodes.push_back(node);
+  }
+  return scene;
+}
+
+/// What a wall of 28 tiles pays for parts that vindu pack has joined, beside those that it has not.
+void ten_thousand_parts(benchmark::State& state) {
+  need_context();
+  Scene as_they_come = parts(), joined = parts();
+  join_still_parts(joined);
+  for (Scene* scene : {&as_they_come, &joined}) cut_into_chunks(*scene);
+  const Look look{Style::lit, 1, Shadows::none};
+  WallRenderer tiles(wall_of_28(), kScale, look), reference(wall_of_28(), kScale, look);
+  tiles.show(pack(joined));
+  reference.show(pack(as_they_come));
+  for (auto _ : state) frame_s(tiles);
+  state.counters["ratio_to_parts_as_they_come"] = best_frame_s(tiles) / best_frame_s(reference);
+  write_png(tiles.picture().read(), "out/parts.png");
+}
+BENCHMARK(ten_thousand_parts)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 }  // namespace
 }  // namespace vindu

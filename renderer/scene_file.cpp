@@ -18,8 +18,9 @@ namespace vindu {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'V', 'S', 'C', 'E', 'N', 'E', '\r', '\n'};
-/// To be raised with any change of what scene_archive.h describes.
-constexpr std::uint32_t kFormat = 3;
+/// To be raised with any change of what scene_archive.h describes, and where packing makes
+/// something better of the same model: what is in a cache is then packed anew.
+constexpr std::uint32_t kFormat = 4;
 
 struct Header {
   std::array<char, 8> magic{};
