@@ -9,21 +9,14 @@
 namespace vindu::app {
 namespace {
 
-/// The last hour or so of a wall that runs for days.
-void keep(std::vector<double>& values, double value) {
-  constexpr std::size_t kMost = 1 << 18;
-  if (values.size() == kMost) values.erase(values.begin(), values.begin() + kMost / 2);
-  values.push_back(value);
-}
-
-std::string row(const char* name, const std::vector<double>& values) {
-  const Quantiles spread = quantiles_of(values);
+std::string row(const char* name, const RunSpread& values) {
+  const Quantiles spread = values.quantiles();
   return fmt::format("  {:<24}{:>9.3f}{:>9.3f}{:>9.3f} ms\n", name, spread.p50, spread.p99,
                      spread.max);
 }
 
-std::string json_row(const char* name, const std::vector<double>& values) {
-  const Quantiles spread = quantiles_of(values);
+std::string json_row(const char* name, const RunSpread& values) {
+  const Quantiles spread = values.quantiles();
   return fmt::format("\"{}\":{{\"p50\":{:.4f},\"p99\":{:.4f},\"max\":{:.4f}}}", name, spread.p50,
                      spread.p99, spread.max);
 }
@@ -41,13 +34,13 @@ void WallFigures::begun(const FrameOrigin& origin, const Kind& kind) {
   begun_[++frames_] = {origin, kind};
   undrawn_ += !kind.drawn;
   if (begun_.size() > kKept) forget_before(std::next(begun_.begin())->first);
-  if (last_begun_) keep(gaps_ms_, milliseconds(origin.tick_time - *last_begun_));
+  if (last_begun_) gaps_ms_.add(milliseconds(origin.tick_time - *last_begun_));
   last_begun_ = origin.tick_time;
   if (origin.capture_time)
-    keep(parts_ms_[static_cast<std::size_t>(Part::capture_age)],
-         milliseconds(origin.tick_time - *origin.capture_time));
-  keep(parts_ms_[static_cast<std::size_t>(Part::solve)],
-       milliseconds(origin.eye_time - origin.tick_time));
+    parts_ms_[static_cast<std::size_t>(Part::capture_age)].add(
+        milliseconds(origin.tick_time - *origin.capture_time));
+  parts_ms_[static_cast<std::size_t>(Part::solve)].add(
+      milliseconds(origin.eye_time - origin.tick_time));
   reports_.follows(kind.level);
 }
 
@@ -75,7 +68,7 @@ void WallFigures::write(std::uint64_t number, const Begun& begun, const FrameSke
 void WallFigures::add(const FrameSkew& skew, Time now) {
   const auto found = begun_.find(skew.number);
   if (found == begun_.end()) return;  // too late
-  if (skew.swaps.size() >= 2) keep(skews_ms_, milliseconds(skew.skew()));
+  if (skew.swaps.size() >= 2) skews_ms_.add(milliseconds(skew.skew()));
   forget_before(skew.number);
   const FrameOrigin origin = found->second.origin;
   const bool drawn = found->second.kind.drawn;
@@ -85,11 +78,11 @@ void WallFigures::add(const FrameSkew& skew, Time now) {
   if (!drawn) return;
   const double light_s = seconds(skew.last().shown - origin.tick_time);
   to_light_s_ += 0.1 * (std::clamp(light_s, 0.0, 1.0) - to_light_s_);
-  keep(to_light_ms_, 1e3 * light_s);
+  to_light_ms_.add(1e3 * light_s);
   const FrameParts parts = parts_of(origin, skew.last().parts, skew.last().shown, display_);
   for (auto part = static_cast<std::size_t>(Part::publish); part < kParts; ++part)
-    keep(parts_ms_[part], milliseconds(parts.durations[part]));
-  if (parts.tracked) keep(to_photon_ms_, milliseconds(parts.motion_to_photon()));
+    parts_ms_[part].add(milliseconds(parts.durations[part]));
+  if (parts.tracked) to_photon_ms_.add(milliseconds(parts.motion_to_photon()));
 }
 
 void WallFigures::add(const MemberEvent& event) {
@@ -131,7 +124,7 @@ std::string WallFigures::json() const {
     const auto found = changes_.find(change);
     return found == changes_.end() ? 0 : found->second;
   };
-  const auto part = [&](Part which) -> const std::vector<double>& {
+  const auto part = [&](Part which) -> const RunSpread& {
     return parts_ms_[static_cast<std::size_t>(which)];
   };
   const std::string parts =

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/frame_csv.h"
+#include "app/run_spread.h"
 #include "app/wall_reports.h"
 #include "cluster/wall_master.h"
 
@@ -64,8 +65,8 @@ class WallFigures {
   std::uint64_t undrawn_ = 0;
   std::map<std::uint64_t, Begun> begun_;  // frames whose swaps are not known yet
   double to_light_s_ = 1 / 60.0;
-  std::vector<double> skews_ms_, to_light_ms_, to_photon_ms_, gaps_ms_;
-  std::array<std::vector<double>, kParts> parts_ms_;
+  RunSpread skews_ms_, to_light_ms_, to_photon_ms_, gaps_ms_;
+  std::array<RunSpread, kParts> parts_ms_;
   std::optional<Time> last_begun_;
   std::map<MemberChange, std::uint64_t> changes_;
 };
