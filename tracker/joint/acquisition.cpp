@@ -52,45 +52,20 @@ class HeadSearch::Contest {
 
   const std::vector<CameraView>& views() const { return views_; }
 
-  /// The next rough pose: those of pairs of cameras, then, where these are not enough, those of
-  /// single ones. Empty: there are no others.
-  std::optional<Rigid3> next() {
-    while (next_pose_ == poses_.size()) {
-      poses_.clear();
-      next_pose_ = 0;
-      if (next_pair_ < pairs_.size() && !settled())
-        poses_ = of_pair(pairs_[next_pair_++]);
-      else if (next_view_ < views_.size() && (next_view_ > 0 || !sure()))
-        poses_ = of_one(views_[next_view_++]);
-      else
-        return std::nullopt;
+  /// Considers the next rough pose, or makes more of them: those of pairs of cameras, then, where
+  /// these are not enough, those of single ones. False: there are no others.
+  bool step() {
+    if (const auto pose = poses_()) {
+      enter(*pose);
+      return true;
     }
-    return poses_[next_pose_++];
-  }
-
-  /// Completes a rough pose with all dots that fit it, in rounds with a shrinking gate. Most rough
-  /// poses meet in a labelling that was tried before, or leave too much unexplained beside what was
-  /// found already; they end there.
-  void enter(const Rigid3& rough) {
-    constexpr std::array<double, kRounds> kGates_px = {40, 12, 0};
-    Rigid3 pose = rough;
-    std::optional<PoseFit> fit;
-    Labels labels;
-    for (std::size_t round = 0; round < kRounds; ++round) {
-      if (round > 0 && settled_cost_ < kNoPair && hopeless(pose)) return;
-      labels = label(pose, kGates_px[round]);
-      if (std::ranges::find(tried_[round], labels) != tried_[round].end()) return;
-      tried_[round].push_back(labels);
-      const auto sightings = sightings_of(labels);
-      if (sightings.size() < 2) return;
-      const bool last = round + 1 == kRounds;
-      fit = fit_pose(cameras_, sightings, pose, prior_, {.converged = last ? 1e-6 : 1e-3});
-      if (!fit) return;
-      pose = fit->room_from_head;
-    }
-    if (sightings_of(labels).size() >= options_.least_dots &&
-        level_of(fit->dot_information) <= options_.least_level)
-      judge(*fit, std::move(labels));
+    if (next_pair_ < pairs_.size() && !settled())
+      poses_ = of_pair(pairs_[next_pair_++]);
+    else if (next_view_ < views_.size() && (next_view_ > 0 || !sure()))
+      poses_ = of_one(views_[next_view_++]);
+    else
+      return false;
+    return true;
   }
 
   /// What is believed of a tracked head, however few dots it rests on and wherever it faces: others
@@ -121,24 +96,48 @@ class HeadSearch::Contest {
   }
 
  private:
+  /// Completes a rough pose with all dots that fit it, in rounds with a shrinking gate. Most rough
+  /// poses meet in a labelling that was tried before, or leave too much unexplained beside what was
+  /// found already; they end there.
+  void enter(const Rigid3& rough) {
+    constexpr std::array<double, kRounds> kGates_px = {40, 12, 0};
+    Rigid3 pose = rough;
+    std::optional<PoseFit> fit;
+    Labels labels;
+    for (std::size_t round = 0; round < kRounds; ++round) {
+      if (round > 0 && settled_cost_ < kNoPair && hopeless(pose)) return;
+      labels = label(pose, kGates_px[round]);
+      if (std::ranges::find(tried_[round], labels) != tried_[round].end()) return;
+      tried_[round].push_back(labels);
+      const auto sightings = sightings_of(labels);
+      if (sightings.size() < 2) return;
+      const bool last = round + 1 == kRounds;
+      fit = fit_pose(cameras_, sightings, pose, prior_, {.converged = last ? 1e-6 : 1e-3});
+      if (!fit) return;
+      pose = fit->room_from_head;
+    }
+    if (sightings_of(labels).size() >= options_.least_dots &&
+        level_of(fit->dot_information) <= options_.least_level)
+      judge(*fit, std::move(labels));
+  }
+
   /// Whether some pose is fixed by the dots and leaves none over: further pairs can only repeat it.
   bool settled() const { return settled_cost_ < kNoPair; }
 
   /// Whether there is a winner that many dots agree upon: few may do so by chance.
   bool sure() {
-    constexpr std::ptrdiff_t kMany = 6;
     const auto best = winner();
-    return best && std::ssize(sightings_of(best->led_of_dot)) >= kMany;
+    return best && std::ssize(sightings_of(best->led_of_dot)) >= kManyDots;
   }
 
-  std::vector<Rigid3> of_pair(const std::pair<std::size_t, std::size_t>& pair) const {
+  RoughPoses of_pair(const std::pair<std::size_t, std::size_t>& pair) const {
     return candidates_from_pair(cameras_, views_[pair.first], views_[pair.second], leds_,
                                 /*least_leds=*/1, options_.candidates_kept);
   }
-  std::vector<Rigid3> of_one(const CameraView& view) const {
-    return view.dots_px.size() < 3 ? std::vector<Rigid3>()
-                                   : candidates_from_one(cameras_, view, leds_);
+  RoughPoses of_one(const CameraView& view) const {
+    return view.dots_px.size() < 3 ? RoughPoses(none) : candidates_from_one(cameras_, view, leds_);
   }
+  static std::optional<Rigid3> none() { return std::nullopt; }
 
   const CameraModel& camera(const CameraView& view) const {
     return cameras_[static_cast<std::size_t>(view.camera)];
@@ -222,8 +221,7 @@ class HeadSearch::Contest {
   PosePrior prior_;
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
   std::size_t next_pair_ = 0, next_view_ = 0;
-  std::vector<Rigid3> poses_;  // rough ones, of the pair or view before these
-  std::size_t next_pose_ = 0;
+  RoughPoses poses_ = none;  // of the pair or view before these
   std::array<std::vector<Labels>, kRounds> tried_;
   std::vector<FoundHead> entries_;
   double settled_cost_ = kNoPair;  // of the best pose that leaves no dot over
@@ -238,14 +236,11 @@ HeadSearch::HeadSearch(HeadSearch&&) noexcept = default;
 HeadSearch& HeadSearch::operator=(HeadSearch&&) noexcept = default;
 
 bool HeadSearch::advance(std::size_t most) {
-  for (; most > 0; --most) {
-    const auto rough = contest_->next();
-    if (!rough) {
+  for (; most > 0; --most)
+    if (!contest_->step()) {
       contest_->enter_believed();
       return true;
     }
-    contest_->enter(*rough);
-  }
   return false;
 }
 

@@ -4,6 +4,7 @@
 // upright and, by and large, face the wall.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,6 +33,9 @@ struct AcquisitionOptions {
   std::size_t candidates_kept = 16;                   ///< of each pair of cameras, to be fitted
 };
 
+/// So many do not agree on a pose by chance.
+constexpr std::ptrdiff_t kManyDots = 6;
+
 struct FoundHead {
   PoseFit fit;  ///< without the prior, where the dots alone fix the pose
   TrackingLevel level = TrackingLevel::lost;
@@ -41,7 +45,8 @@ struct FoundHead {
   bool believed = false;                     ///< what was tracked: there is nothing better
 };
 
-/// A look for a head that may be spread over time: rough poses are considered one after the other.
+/// A look for a head that may be spread over time, in steps: rough poses are made, for two cameras
+/// at a time, and considered one after the other.
 class HeadSearch {
  public:
   /// The cameras must outlive it.
@@ -51,7 +56,7 @@ class HeadSearch {
   HeadSearch(HeadSearch&&) noexcept;
   HeadSearch& operator=(HeadSearch&&) noexcept;
 
-  /// Considers so many more of them. True when there are no others.
+  /// Goes so many steps on. True when there are no others.
   bool advance(std::size_t most);
 
   /// In the end. Empty when there is no candidate, or two are too close to choose.

@@ -69,7 +69,6 @@ void move_on(HeadTrack& head, std::span<const Vec3> leds_in_head, Time to,
   const bool moves = seen_by_two(head, to, options);
   const auto leds = static_cast<std::size_t>(std::ranges::count_if(head.led_seen, lately));
   const bool turns = leds >= 2;
-  if (leds >= std::min<std::size_t>(3, leds_in_head.size())) head.rotation_seen = to;
   const Duration passed = to - head.state->time;
   const auto axis = unseen_axis(head, leds_in_head, to, options);
   if (axis && options.turns && passed > Duration::zero())
@@ -246,13 +245,11 @@ bool widen_displaced(const TimedDots& seen, const CameraModel& camera,
                      std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
                      const std::vector<AcceptedDot>& accepted, const AssociationOptions& options) {
   bool any = false;
-  const std::vector<Column> columns =
-      columns_of(seen.captured, camera, leds_of_heads, heads, options);
   for (std::size_t head = 0; head < heads.size(); ++head) {
     const auto of_head = [&](const auto& part) { return part.head == static_cast<int>(head); };
     if (!heads[head].state || std::ranges::any_of(accepted, of_head)) continue;
-    std::vector<Column> own;
-    std::ranges::copy_if(columns, std::back_inserter(own), of_head);
+    const std::vector<Column> own = columns_of(
+        seen.captured, camera, leds_of_heads.subspan(head, 1), heads.subspan(head, 1), options);
     if (!displaced(seen, own)) continue;
     widen(*heads[head].state, well_seen(heads[head], seen.captured, options));
     any = true;

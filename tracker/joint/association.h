@@ -33,7 +33,6 @@ struct HeadTrack {
   Time seen{};  ///< when the last dot of it was captured
   std::array<Time, kMaxCameras> seen_by{};
   std::array<Time, kMaxLeds> led_seen{};
-  Time rotation_seen{};  ///< when three of its LEDs, or all, had been seen lately
   double surprise = 0;  ///< running mean of its dots' squared residuals in sigmas, less 2: as usual
 };
 

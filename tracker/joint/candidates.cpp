@@ -26,14 +26,20 @@ struct Match {
   double mismatch_m2 = 0;  // of distances, per pair
 };
 
+std::vector<Ray> rays_of(const CameraModel& camera, const CameraView& view) {
+  std::vector<Ray> rays;
+  for (const Vec2& dot_px : view.dots_px) rays.push_back(camera.ray_through(dot_px));
+  return rays;
+}
+
 // Rays that cross at an angle alpha leave depth uncertain by D sigma / (sqrt 2 sin(alpha / 2)).
 std::vector<MetPoint> meeting_points(const CameraModel& camera_a, const CameraView& a,
                                      const CameraModel& camera_b, const CameraView& b) {
+  const std::vector<Ray> rays_a = rays_of(camera_a, a), rays_b = rays_of(camera_b, b);
   std::vector<MetPoint> points;
-  for (std::size_t i = 0; i < a.dots_px.size(); ++i)
-    for (std::size_t j = 0; j < b.dots_px.size(); ++j) {
-      const Ray ray_a = camera_a.ray_through(a.dots_px[i]),
-                ray_b = camera_b.ray_through(b.dots_px[j]);
+  for (std::size_t i = 0; i < rays_a.size(); ++i)
+    for (std::size_t j = 0; j < rays_b.size(); ++j) {
+      const Ray &ray_a = rays_a[i], &ray_b = rays_b[j];
       const auto met = triangulate(ray_a, ray_b);
       if (!met) continue;
       const double distance_m = (met->x_in_room - ray_a.origin_in_room).norm();
@@ -50,7 +56,10 @@ std::vector<MetPoint> meeting_points(const CameraModel& camera_a, const CameraVi
 class Matcher {
  public:
   Matcher(std::span<const Vec3> leds, const std::vector<MetPoint>& points, std::size_t least)
-      : leds_(leds), points_(points), least_(least) {}
+      : leds_(leds), points_(points), least_(least), gaps_(points.size() * points.size()) {
+    for (std::size_t a = 0; a < points.size(); ++a)
+      for (std::size_t b = 0; b < points.size(); ++b) gaps_[a * points.size() + b] = gap(a, b);
+  }
 
   std::vector<Match> matches() {
     extend(0);
@@ -83,19 +92,30 @@ class Matcher {
   std::optional<double> mismatch(std::size_t led, std::size_t point) const {
     double sum_m2 = 0;
     for (const auto& [other_led, other] : current_.led_point) {
-      const MetPoint &p = points_[point], &q = points_[other];
-      if (p.dot_a == q.dot_a || p.dot_b == q.dot_b) return std::nullopt;
-      const double error_m =
-          (p.x_in_room - q.x_in_room).norm() - (leds_[led] - leds_[other_led]).norm();
-      if (std::abs(error_m) > kMotion_m + 3 * std::hypot(p.sigma_m, q.sigma_m)) return std::nullopt;
+      const Gap& between = gaps_[point * points_.size() + other];
+      const double error_m = between.length_m - (leds_[led] - leds_[other_led]).norm();
+      if (std::abs(error_m) > between.tolerance_m) return std::nullopt;
       sum_m2 += error_m * error_m;
     }
     return sum_m2;
   }
 
+  /// Between two points; nothing may be so long where both cannot be there.
+  struct Gap {
+    double length_m = 0;
+    double tolerance_m = -1;
+  };
+  Gap gap(std::size_t a, std::size_t b) const {
+    const MetPoint &p = points_[a], &q = points_[b];
+    if (p.dot_a == q.dot_a || p.dot_b == q.dot_b) return {};
+    const double sigma_m = std::sqrt(p.sigma_m * p.sigma_m + q.sigma_m * q.sigma_m);
+    return {(p.x_in_room - q.x_in_room).norm(), kMotion_m + 3 * sigma_m};
+  }
+
   std::span<const Vec3> leds_;
   const std::vector<MetPoint>& points_;
   std::size_t least_;
+  std::vector<Gap> gaps_;  // of each two points
   Match current_;
   std::vector<Match> found_;
 };
@@ -144,23 +164,26 @@ void add_p3p(const CameraModel& camera, const std::vector<cv::Point3d>& leds,
 
 }  // namespace
 
-std::vector<Rigid3> candidates_from_pair(std::span<const CameraModel> cameras, const CameraView& a,
-                                         const CameraView& b, std::span<const Vec3> leds_in_head,
-                                         std::size_t least_leds, std::size_t kept) {
-  const auto points = meeting_points(cameras[static_cast<std::size_t>(a.camera)], a,
-                                     cameras[static_cast<std::size_t>(b.camera)], b);
-  std::vector<Rigid3> poses;
-  for (const Match& match : Matcher(leds_in_head, points, least_leds).matches()) {
-    const Rigid3 pose = pose_of(match, leds_in_head, points);
-    if (upright(pose)) poses.push_back(pose);
-    if (poses.size() == kept) break;
-  }
-  return poses;
+RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const CameraView& a,
+                                const CameraView& b, std::span<const Vec3> leds_in_head,
+                                std::size_t least_leds, std::size_t kept) {
+  auto points = meeting_points(cameras[static_cast<std::size_t>(a.camera)], a,
+                               cameras[static_cast<std::size_t>(b.camera)], b);
+  auto matches = Matcher(leds_in_head, points, least_leds).matches();
+  return [=, points = std::move(points), matches = std::move(matches), left = kept,
+          next = std::size_t{0}]() mutable -> std::optional<Rigid3> {
+    while (left > 0 && next < matches.size()) {
+      const Rigid3 pose = pose_of(matches[next++], leds_in_head, points);
+      if (!upright(pose)) continue;
+      --left;
+      return pose;
+    }
+    return std::nullopt;
+  };
 }
 
-std::vector<Rigid3> candidates_from_one(std::span<const CameraModel> cameras,
-                                        const CameraView& view,
-                                        std::span<const Vec3> leds_in_head) {
+RoughPoses candidates_from_one(std::span<const CameraModel> cameras, const CameraView& view,
+                               std::span<const Vec3> leds_in_head) {
   const CameraModel& camera = cameras[static_cast<std::size_t>(view.camera)];
   const std::size_t dots = std::min(view.dots_px.size(), kDotsForOne), leds = leds_in_head.size();
   std::vector<cv::Point2d> plane;
@@ -179,7 +202,10 @@ std::vector<Rigid3> candidates_from_one(std::span<const CameraModel> cameras,
               if (i != j && j != k && k != i)
                 add_p3p(camera, {point(i), point(j), point(k)}, {plane[a], plane[b], plane[c]},
                         poses);
-  return poses;
+  return [poses = std::move(poses), next = std::size_t{0}]() mutable -> std::optional<Rigid3> {
+    if (next == poses.size()) return std::nullopt;
+    return poses[next++];
+  };
 }
 
 }  // namespace vindu

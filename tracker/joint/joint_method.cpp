@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -23,14 +24,27 @@ constexpr Duration kCheck = std::chrono::seconds(2);  // and of one that explain
 constexpr Duration kLevelWindow = Milliseconds(35);   // that the level is judged by
 constexpr Duration kHeld = Milliseconds(250);
 constexpr Duration kLost = std::chrono::seconds(2);
-constexpr Duration kRemembered = std::chrono::seconds(1);  // a rotation, to place the eye by
+constexpr Duration kRemembered = Milliseconds(500);  // what was sure, to place the eye by
 constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
+
+std::ptrdiff_t dots_of(const FoundHead& found) {
+  std::ptrdiff_t dots = 0;
+  for (const auto& leds : found.led_of_dot) dots += std::ssize(leds) - std::ranges::count(leds, -1);
+  return dots;
+}
+
+/// Few dots that are not one head's fit some pose as well, but seldom as closely as a head's.
+bool fits_closely(const FoundHead& found) {
+  constexpr double kLargest = 2.5;  // squared sigmas for each number that the pose leaves free
+  const std::ptrdiff_t dots = dots_of(found);
+  if (dots >= kManyDots || found.level != TrackingLevel::six_dof) return true;
+  return found.fit.cost <=
+         kLargest * static_cast<double>(std::max<std::ptrdiff_t>(2 * dots - 6, 1));
+}
 
 /// The fewer dots agree, the more often they must, unless those of a tracked head agree even less.
 int looks_needed(const FoundHead& found, bool contradicted) {
-  std::ptrdiff_t dots = 0;
-  for (const auto& leds : found.led_of_dot) dots += std::ssize(leds) - std::ranges::count(leds, -1);
-  return dots >= 6 || contradicted ? 2 : 4;
+  return dots_of(found) >= kManyDots || contradicted ? 2 : 4;
 }
 
 bool same_pose(const Rigid3& a, const Rigid3& b) {
@@ -275,10 +289,27 @@ bool JointMethod::contradicted(std::size_t head) const {
   return own < kFew && left > kLeftPerOwn * own;
 }
 
-// One that is tracked is looked for as well; where nothing speaks against it, a few rough poses a
+/// Whether so many dots agree lately that they would not if one were taken for another LED's: three
+/// of two cameras always fit some pose. One camera alone has no more.
+bool JointMethod::sure(std::size_t head) const {
+  constexpr Duration kLately = Milliseconds(80);
+  std::vector<std::ptrdiff_t> most(cameras_.size());  // dots of one report
+  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
+    if (entries_.back().seen.captured - entry->seen.captured > kLately) break;
+    auto& dots = most[static_cast<std::size_t>(entry->seen.camera)];
+    dots = std::max(dots, std::ranges::count(entry->association.accepted, static_cast<int>(head),
+                                             &AcceptedDot::head));
+  }
+  const std::ptrdiff_t leds = std::ssize(leds_of_heads_[head]);
+  const auto needed = cameras_.size() == 1 ? std::min<std::ptrdiff_t>(leds, 3)
+                                           : std::min<std::ptrdiff_t>(2 * leds, 4);
+  return std::accumulate(most.begin(), most.end(), std::ptrdiff_t{0}) >= needed;
+}
+
+// One that is tracked is looked for as well; where nothing speaks against it, by one step a
 // frame, so that no frame pays for the whole look.
 void JointMethod::look_for(std::size_t head, Time now) {
-  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max(), kFew = 3;
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   if (entries_.empty()) return;
   Search& search = searches_[head];
   const bool lost = !newest_heads()[head].state;
@@ -297,14 +328,18 @@ void JointMethod::look_for(std::size_t head, Time now) {
   for (const std::size_t i : entries)
     views.push_back(
         view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common)));
-  search.look = Look{HeadSearch(cameras_, std::move(views), leds_of_heads_[head],
-                                acquisition_options(entries_[newest].after[head])),
-                     seen.camera, seen.captured, pause == kCheck ? kFew : kAll};
+  const HeadTrack& track = entries_[newest].after[head];
+  search.look = Look{.search = HeadSearch(cameras_, std::move(views), leds_of_heads_[head],
+                                          acquisition_options(track)),
+                     .camera = seen.camera,
+                     .captured = seen.captured,
+                     .steps = pause == kCheck && !search.rumour ? 1 : kAll};
+  if (track.state) search.look->tracked = track.state->room_from_head;
 }
 
 void JointMethod::go_on(std::size_t head) {
   std::optional<Look>& look = searches_[head].look;
-  if (!look || !look->search.advance(look->step)) return;
+  if (!look || !look->search.advance(look->steps)) return;
   conclude(head);
   look.reset();
 }
@@ -321,18 +356,16 @@ std::optional<std::size_t> JointMethod::entry_of(const Look& look) const {
 void JointMethod::conclude(std::size_t head) {
   Search& search = searches_[head];
   const auto found = search.look->search.winner();
-  const auto newest = entry_of(*search.look);
-  if (!found || !newest) return search.rumour.reset();
+  if (!found || !(options_.position_only || fits_closely(*found))) return search.rumour.reset();
   judge_cameras(search.look->search.views(), *found);
-  const auto& tracked = entries_[*newest].after[head].state;
+  const std::optional<Rigid3>& tracked = search.look->tracked;
   const Rigid3& pose = found->fit.room_from_head;
-  if (found->believed || (tracked && same_pose(pose, tracked->room_from_head)))
-    return search.rumour.reset();
+  if (found->believed || (tracked && same_pose(pose, *tracked))) return search.rumour.reset();
   const bool again = search.rumour && same_pose(pose, *search.rumour);
   search.rumour = pose;
   search.confirmed = again ? search.confirmed + 1 : 1;
-  if (search.confirmed >= looks_needed(*found, tracked && contradicted(head)))
-    bear(head, *found, *newest);
+  if (search.confirmed < looks_needed(*found, tracked && contradicted(head))) return;
+  if (const auto newest = entry_of(*search.look)) bear(head, *found, *newest);
 }
 
 void JointMethod::update(Time now) {
@@ -342,8 +375,12 @@ void JointMethod::update(Time now) {
     go_on(head);
   }
   replay();
-  for (std::size_t head = 0; head < searches_.size(); ++head)
-    if (const HeadTrack& track = newest_heads()[head]; track.state) searches_[head].last = track;
+  for (std::size_t head = 0; head < searches_.size(); ++head) {
+    const HeadTrack& track = newest_heads()[head];
+    if (!track.state) continue;
+    searches_[head].last = track;
+    if (sure(head)) searches_[head].sure = entries_.back().seen.captured;
+  }
 }
 
 // By the dots that each camera's newest report gave.
@@ -368,9 +405,8 @@ TrackingLevel JointMethod::level_now(std::size_t head) const {
     }
   }
   const TrackingLevel level = std::min(level_of(information), TrackingLevel::bearing);
-  const Duration remembered = entries_.back().seen.captured - newest_heads()[head].rotation_seen;
-  return level > TrackingLevel::six_dof && remembered > kRemembered ? TrackingLevel::bearing
-                                                                    : level;
+  const Duration remembered = entries_.back().seen.captured - searches_[head].sure;
+  return remembered > kRemembered ? TrackingLevel::bearing : level;
 }
 
 std::optional<PoseSample> JointMethod::pose(std::size_t head, Time photon) const {

@@ -80,7 +80,8 @@ class JointMethod {
     HeadSearch search;
     int camera = 0;
     Time captured{};
-    std::size_t step = 0;  ///< rough poses a frame
+    std::optional<Rigid3> tracked{};  ///< where the head was by then
+    std::size_t steps = 0;            ///< a frame
   };
 
   void insert(Entry entry);
@@ -97,6 +98,7 @@ class JointMethod {
   AcquisitionOptions acquisition_options(const HeadTrack& head) const;
   bool doubtful(std::size_t head) const;
   bool contradicted(std::size_t head) const;
+  bool sure(std::size_t head) const;
   static bool bears(const Entry& entry, std::size_t head);
   void bear(std::size_t head, const FoundHead& found, std::size_t entry);
   TrackingLevel level_now(std::size_t head) const;
@@ -118,6 +120,7 @@ class JointMethod {
     std::optional<Rigid3> rumour{};  // where the last look found it, unless it is tracked there
     int confirmed = 0;               // looks in a row that found it there
     HeadTrack last{};                // that was tracked
+    Time sure{};                     // capture of the newest report when it was sure
   };
   std::vector<Search> searches_;
 };

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/tracker/joint/scene.h"
 
@@ -199,16 +200,40 @@ TEST_F(JointMethodTest, names_the_one_of_three_cameras_that_was_bumped) {
   EXPECT_LT(error_m(method, 0, Time{milliseconds(8990)}, walking(8.99)), 0.02);
 }
 
-TEST_F(JointMethodTest, places_the_eye_by_a_remembered_rotation_for_a_second) {
+TEST_F(JointMethodTest, places_the_eye_for_half_a_second_by_what_was_sure) {
   JointMethod method(configs_, heads_);
   const auto stands = [](double) { return std::vector{walking(0)}; };
   feed(method, 0, 2, stands);
   heads_[0].leds_in_head = {kThreeLeds[0]};  // both cameras see this one alone
-  feed(method, 2, 2.9, stands);
-  EXPECT_EQ(method.pose(0, Time{milliseconds(2890)})->level, TrackingLevel::position);
-  EXPECT_LT(error_m(method, 0, Time{milliseconds(2890)}, walking(0)), 0.03);
-  feed(method, 2.9, 3.2, stands);
-  EXPECT_EQ(method.pose(0, Time{milliseconds(3190)})->level, TrackingLevel::bearing);
+  feed(method, 2, 2.4, stands);
+  EXPECT_EQ(method.pose(0, Time{milliseconds(2390)})->level, TrackingLevel::position);
+  EXPECT_LT(error_m(method, 0, Time{milliseconds(2390)}, walking(0)), 0.03);
+  feed(method, 2.4, 2.8, stands);
+  EXPECT_EQ(method.pose(0, Time{milliseconds(2790)})->level, TrackingLevel::bearing);
+}
+
+/// Two dots of one camera and one of another fit some pose whichever LEDs they are; two of each do
+/// not.
+TEST_F(JointMethodTest, vouches_for_a_place_as_long_as_four_dots_do) {
+  for (const std::size_t left : {1u, 2u}) {
+    JointMethod method(configs_, heads_);
+    const auto stands = [](double) { return std::vector{walking(0)}; };
+    feed(method, 0, 2, stands);
+    for (int k = 200; k < 400; ++k) {
+      const Time time{milliseconds(10 * k)};
+      for (const auto& [camera, most] : {std::pair{0, std::size_t{2}}, std::pair{1, left}}) {
+        Observation seen = seen_by(camera, stands(0), time);
+        const DotList all = std::exchange(seen.dots, {});
+        for (std::size_t i = 0; i < std::min(all.size(), most); ++i) seen.dots.push_back(all[i]);
+        method.absorb(seen);
+      }
+      method.update(time);
+    }
+    const auto pose = method.pose(0, Time{milliseconds(3990)});
+    ASSERT_TRUE(pose);
+    EXPECT_EQ(pose->level == TrackingLevel::bearing, left == 1) << left;
+    EXPECT_LT(error_m(method, 0, Time{milliseconds(3990)}, walking(0)), 0.06) << left;
+  }
 }
 
 TEST_F(JointMethodTest, in_position_mode_needs_one_led_in_two_cameras) {
