@@ -258,14 +258,15 @@ Families families_of(const Scene& scene) {
 
 void make_levels(Scene& scene) {
   const std::vector<bool> shared_place = vertices_of_shared_places(scene.vertices);
-  for (const auto& [key, meshes] : families_of(scene)) {
+  for (const auto& family : families_of(scene)) {
+    const std::vector<int>& meshes = family.second;
     std::vector<Piece> pieces(meshes.size());
     const auto make_leaf = [&](std::size_t i) {
       order_triangles_by_vertices(indices_of(scene, scene.meshes[meshes[i]]));
       pieces[i] = leaf_of(scene, meshes[i]);
     };
     for_each_in_parallel(meshes.size(), make_leaf, kMostThreads);
-    LevelMaker(scene, shared_place, key.first).make(std::move(pieces));
+    LevelMaker(scene, shared_place, family.first.first).make(std::move(pieces));
   }
   // The coarsest first: its few vertices lie together, and so do those that each level adds.
   const std::vector<Mesh> coarsest_first(scene.meshes.rbegin(), scene.meshes.rend());

@@ -147,9 +147,12 @@ class VertexMover {
     for (std::uint32_t& vertex : vertices) {
       const auto copied = static_cast<std::uint32_t>(scene_.vertices.size());
       copies[vertex] = copied;
-      scene_.vertices.push_back(Vertex(scene_.vertices[vertex]));
-      if (!scene_.influences.empty())
-        scene_.influences.push_back(Influences(scene_.influences[vertex]));
+      const Vertex original = scene_.vertices[vertex];
+      scene_.vertices.push_back(original);
+      if (!scene_.influences.empty()) {
+        const Influences of_original = scene_.influences[vertex];
+        scene_.influences.push_back(of_original);
+      }
       vertex = copied;
     }
     for (std::uint32_t& index : indices) index = copies[index];

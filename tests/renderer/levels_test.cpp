@@ -19,7 +19,6 @@ namespace vindu {
 namespace {
 
 using namespace testing;
-using ::testing::Each;
 
 Scene with_levels(Scene scene) {
   cut_into_chunks(scene);

@@ -14,8 +14,6 @@ namespace vindu {
 namespace {
 
 using namespace testing;
-using ::testing::Each;
-using ::testing::ElementsAre;
 using ::testing::SizeIs;
 
 constexpr Eigen::Index kCornerNumbers = 11;
@@ -126,7 +124,8 @@ TEST(StillParts, OfOneMaterialEachAreLeftAlone) {
 
 TEST(StillParts, LeaveAPartThatIsAnimatedAndAllBelowIt) {
   Scene scene = tree(12);
-  Animation& animation = scene.animations.emplace_back("wave", 2.0);
+  scene.animations.push_back({.name = "wave", .duration_s = 2, .channels = {}});
+  Animation& animation = scene.animations.back();
   AnimationChannel& channel = animation.channels.emplace_back();
   channel.node = 3;
   channel.translations = {{0, Eigen::Vector3f::Zero()}, {2, Eigen::Vector3f::Ones()}};
