@@ -220,6 +220,7 @@ void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t ent
     state.covariance.rightCols<9>().setZero();
   }
   entries_[entry].births.emplace_back(head, state);
+  searches_[head].sure = state.time;
   replay_from_ = std::min(replay_from_, entry);
 }
 
