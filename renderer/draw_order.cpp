@@ -18,8 +18,8 @@ std::vector<const GpuScene::Draw*> sorted(std::vector<Keyed>& keyed) {
 }  // namespace
 
 /// From the coarsest level to finer ones, where it is not fine enough: what a scene has in more
-/// detail than is shown costs nothing. An error never grows and bounds never do on this way, so
-/// what is fine has nothing below it that is not.
+/// detail than is shown costs nothing. Neither errors nor bounds grow on this way, so what is fine
+/// has nothing below it that is not.
 template <class Fine>
 std::vector<const GpuScene::Draw*> GpuScene::chosen_where(Fine fine) const {
   enum : char { kUnknown, kFine, kCoarse };

@@ -16,12 +16,14 @@ namespace {
 using Indices = std::vector<std::uint32_t>;
 using Matrices = std::vector<Eigen::Matrix4d>;
 
-Matrices scene_from_nodes(const std::vector<Node>& nodes) {
+/// Of the root, which is node 0.
+Matrices root_from_nodes(const std::vector<Node>& nodes) {
   Matrices matrices;
   for (const Node& node : nodes) {
-    const Eigen::Matrix4d parent_from_node = node.parent_from_node.cast<double>();
-    matrices.push_back(node.parent < 0 ? parent_from_node
-                                       : matrices[node.parent] * parent_from_node);
+    if (node.parent < 0)
+      matrices.push_back(Eigen::Matrix4d::Identity());
+    else
+      matrices.push_back(matrices[node.parent] * node.parent_from_node.cast<double>());
   }
   return matrices;
 }
@@ -50,13 +52,13 @@ struct Part {
 };
 
 /// What can be joined; nothing where that would save no call.
-std::vector<Part> joinable_parts(const SceneOutline& scene, const Matrices& scene_from_node) {
+std::vector<Part> joinable_parts(const SceneOutline& scene, const Matrices& root_from_node) {
   const std::vector<bool> moving = moving_nodes(scene);
   const std::vector<int> uses = uses_of_meshes(scene);
   std::vector<Part> parts;
   std::map<int, int> of_material;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const Eigen::Matrix3d linear = scene_from_node[i].topLeftCorner<3, 3>();
+    const Eigen::Matrix3d linear = root_from_node[i].topLeftCorner<3, 3>();
     if (moving[i] || !linear.allFinite() || linear.determinant() == 0) continue;
     for (const int index : scene.nodes[i].meshes) {
       const Mesh& mesh = scene.meshes[index];
@@ -70,13 +72,13 @@ std::vector<Part> joinable_parts(const SceneOutline& scene, const Matrices& scen
 }
 
 Eigen::Vector3d middle_of(const SceneOutline& scene, const std::vector<Part>& parts,
-                          const Matrices& scene_from_node) {
+                          const Matrices& root_from_node) {
   Eigen::AlignedBox3d box;
   for (const auto& [node, mesh] : parts) {
     const Eigen::Vector3f middle = scene.meshes[mesh].bounds_in_node.center();
-    box.extend((scene_from_node[node] * middle.cast<double>().homogeneous()).head<3>());
+    box.extend((root_from_node[node] * middle.cast<double>().homogeneous()).head<3>());
   }
-  return box.center().cast<float>().cast<double>();  // what a node's matrix can say
+  return box.center();
 }
 
 /// Takes vertices from one frame to another, as shaders/scene.vert takes them into the world.
@@ -230,28 +232,27 @@ void drop_idle_nodes(Scene& scene) {
 }  // namespace
 
 void join_still_parts(Scene& scene) {
-  const Matrices scene_from_node = scene_from_nodes(scene.nodes);
-  const std::vector<Part> parts = joinable_parts(scene, scene_from_node);
+  const Matrices root_from_node = root_from_nodes(scene.nodes);
+  const std::vector<Part> parts = joinable_parts(scene, root_from_node);
   if (parts.empty()) return;
-  Eigen::Matrix4d scene_from_joined = Eigen::Matrix4d::Identity();
-  scene_from_joined.topRightCorner<3, 1>() = middle_of(scene, parts, scene_from_node);
-  const Eigen::Matrix4d joined_from_scene = scene_from_joined.inverse();
+  Node node{.name = "still parts", .parent = 0, .meshes = {}};
+  node.parent_from_node.topRightCorner<3, 1>() =
+      middle_of(scene, parts, root_from_node).cast<float>();
+  const Eigen::Matrix4d joined_from_root = node.parent_from_node.cast<double>().inverse();
   VertexMover mover(scene);
   MeshList meshes;
   std::map<int, Indices> joined;  // of each material that is not blended
   std::vector<std::pair<int, Indices>> apart;
-  for (const auto& [node, mesh] : parts) {
+  for (const auto& [part_node, mesh] : parts) {
     const int material = scene.meshes[mesh].material;
-    Indices indices = mover.moved(mesh, Move(joined_from_scene * scene_from_node[node]));
+    Indices indices = mover.moved(mesh, Move(joined_from_root * root_from_node[part_node]));
     if (scene.materials[material].alpha_mode == AlphaMode::blend)
       apart.emplace_back(material, std::move(indices));
     else
       joined[material].insert(joined[material].end(), indices.begin(), indices.end());
-    std::erase(scene.nodes[node].meshes, mesh);
+    std::erase(scene.nodes[part_node].meshes, mesh);
   }
   keep_what_nodes_show(scene, meshes);
-  Node node{.name = "still parts", .parent = 0, .meshes = {}};
-  node.parent_from_node = (scene_from_node[0].inverse() * scene_from_joined).cast<float>();
   apart.insert(apart.begin(), joined.begin(), joined.end());
   for (const auto& [material, indices] : apart)
     node.meshes.push_back(meshes.add(mesh_of(scene, indices, material), indices));
