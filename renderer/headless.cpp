@@ -23,8 +23,14 @@ namespace {
        "install a driver with OpenGL 4.5 (Mesa: libgl1-mesa-dri), or choose another --device"});
 }
 
+/// EGL_EXT_device_base is the older name of the same (NVIDIA's driver has that alone).
+bool lists_devices() {
+  return epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") ||
+         epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base");
+}
+
 std::vector<EGLDeviceEXT> list_devices() {
-  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) return {};
+  if (!lists_devices()) return {};
   std::array<EGLDeviceEXT, 32> devices{};
   EGLint count = 0;
   if (!eglQueryDevicesEXT(devices.size(), devices.data(), &count)) return {};
