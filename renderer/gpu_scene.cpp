@@ -182,6 +182,7 @@ void GpuScene::link_draws() {
     if (draw.mesh.skinned) skinned_.push_back(index);
     (draw.replaced_by < 0 ? coarsest_ : coarsenings_[draw.replaced_by].finer).push_back(index);
   }
+  for (const int index : coarsest_) coarsest_triangles_ += draws_[index].mesh.index_count / 3;
   group_count_ = static_cast<int>(groups.size());
   boxes_.resize(draws_.size());
 }

@@ -10,12 +10,23 @@
 #include <vector>
 
 #include "core/rigid3.h"
-#include "renderer/detail.h"
+#include "renderer/culling.h"
 #include "renderer/gpu_skin.h"
 #include "renderer/gpu_textures.h"
 #include "renderer/surface_kind.h"
+#include "renderer/view.h"
 
 namespace vindu {
+
+/// Of a scene's surfaces: all, and those that are left out since a view does not see them.
+struct DrawCount {
+  int draws = 0;
+  int culled = 0;
+  std::uint64_t triangles = 0;         ///< of all draws
+  std::uint64_t culled_triangles = 0;  ///< of those left out: as coarse as they were when they were
+
+  DrawCount& operator+=(const DrawCount& other);
+};
 
 class GpuScene {
  public:
@@ -56,17 +67,17 @@ class GpuScene {
   Facing facing(const Draw& draw) const {
     return (draw.mesh.skinned ? skinned_facings_ : facings_)[static_cast<std::size_t>(draw.node)];
   }
-  /// What an eye is shown, each surface at one level of detail, in the order of drawing: solid
-  /// (opaque or masked) from near to far, blended from far to near. The eye decides, not the tile:
-  /// neighbours agree.
-  struct Order {
-    Vec3 eye_in_world;
-    DetailNeed need;
-    std::uint64_t moves = 0;
+  /// What a view shows, each surface at one level of detail, in the order of drawing: solid
+  /// (opaque or masked) from near to far, blended from far to near. The eye decides about the
+  /// level, not the tile: neighbours agree.
+  struct Seen {
     std::vector<const Draw*> solid, blended;
+    DrawCount count;
   };
-  /// Kept for the next view of the same eye, until the scene moves.
-  const Order& order_for(const Vec3& eye_in_world, const DetailNeed& need) const;
+  /// What it does not see costs nothing beyond the coarsest level.
+  Seen seen_by(const View& view) const;
+  /// The coarsest level of every surface of which it may see something.
+  std::vector<const Draw*> coarsest_seen_by(const View& view) const;
   /// All surfaces, each at the coarsest level with at most this error.
   std::vector<const Draw*> draws_within(double error_m) const;
   /// Something is there in several levels of detail.
@@ -92,14 +103,16 @@ class GpuScene {
   void link_draws();
   void place_skinned();
   void place_coarsenings();
-  template <class Fine>
-  std::vector<const Draw*> chosen_where(Fine fine) const;
+  std::vector<int> coarsest_within(const ViewPlanes& planes) const;
+  template <class Judge, class Take>
+  void walk_levels(std::span<const int> coarsest, Judge judge, Take take) const;
 
   SceneOutline skeleton_;  // nodes and animations
   std::size_t triangle_count_ = 0;
   std::vector<Draw> draws_;
   int group_count_ = 0;
   std::vector<int> skinned_, coarsest_;  // of the draws
+  std::uint64_t coarsest_triangles_ = 0;
   struct PosedBox {
     std::uint64_t moves = 0;  // after how many it was worked out
     Box3f in_world;
@@ -113,7 +126,11 @@ class GpuScene {
     std::vector<int> finer{};  // the draws that it replaces
   };
   std::vector<PosedCoarsening> coarsenings_;
-  mutable std::optional<Order> cached_order_;
+  struct PosedRows {
+    std::uint64_t moves = 0;
+    BoxRows in_world;
+  };
+  mutable std::optional<PosedRows> coarsest_boxes_;  // around all that each of coarsest_ stands for
   std::vector<Eigen::Matrix4f> world_from_nodes_;
   std::uint64_t moves_ = 0;
   std::vector<Facing> facings_, skinned_facings_;                    // of each node

@@ -23,12 +23,16 @@ DrawCount SceneRenderer::draw(const View& view, std::span<const GpuScene* const>
   DrawCount count;
   if (shadow) glBindTextureUnit(kShadowUnit, shadow->texture());
   glEnable(GL_DEPTH_TEST);
-  for (const GpuScene* scene : scenes) draw_scene({view, shadow, false}, *scene, count);
+  std::vector<GpuScene::Seen> seen;
+  for (const GpuScene* scene : scenes) count += seen.emplace_back(scene->seen_by(view)).count;
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    draw_scene({view, shadow, false}, *scenes[i], seen[i].solid);
   for (const Panel& panel : panels) draw_panel(view, panel);
   if (style() == Style::lit) draw_background(view);
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
-  for (const GpuScene* scene : scenes) draw_scene({view, shadow, true}, *scene, count);
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    draw_scene({view, shadow, true}, *scenes[i], seen[i].blended);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
@@ -67,10 +71,11 @@ void SceneRenderer::use_program(const Pass& pass, const GpuScene& scene, Surface
   program.use();
 }
 
-void SceneRenderer::draw_scene(const Pass& pass, const GpuScene& scene, DrawCount& count) const {
+void SceneRenderer::draw_scene(const Pass& pass, const GpuScene& scene,
+                               std::span<const GpuScene::Draw* const> draws) const {
   scene.bind();
   std::optional<SurfaceKind> in_use;
-  for (const Batch& batch : batches_in_view(pass.view, scene, pass.blended, count)) {
+  for (const Batch& batch : batches_of(scene, draws, pass.blended)) {
     const GpuScene::Draw& draw = *batch.first;
     const SurfaceKind kind = kind_drawn(draw, pass.shadow);
     if (in_use != kind) use_program(pass, scene, kind);

@@ -49,7 +49,8 @@ class SceneRenderer {
     const ShadowMap* shadow;
     bool blended;
   };
-  void draw_scene(const Pass& pass, const GpuScene& scene, DrawCount& count) const;
+  void draw_scene(const Pass& pass, const GpuScene& scene,
+                  std::span<const GpuScene::Draw* const> draws) const;
   SurfaceKind kind_drawn(const GpuScene::Draw& draw, const ShadowMap* shadow) const;
   void use_program(const Pass& pass, const GpuScene& scene, SurfaceKind kind) const;
   void draw_panel(const View& view, const Panel& panel) const;

@@ -120,11 +120,10 @@ void ShadowMap::draw(std::span<const GpuScene* const> scenes) const {
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   for (const GpuScene* scene : scenes) {
-    BatchList batches(*scene);
-    for (const GpuScene::Draw* draw : scene->draws_within(largest_error_m()))
-      if (casts_shadow(*draw)) batches.add(*draw);
+    std::vector<const GpuScene::Draw*> casters = scene->draws_within(largest_error_m());
+    std::erase_if(casters, [](const GpuScene::Draw* draw) { return !casts_shadow(*draw); });
     scene->bind();
-    for (const Batch& batch : batches.take()) {
+    for (const Batch& batch : batches_of(*scene, casters)) {
       const SurfaceKind kind = caster_kind(batch.first->kind);
       const gl::Program& program = programs_.of(kind);
       program.set("clip_from_world", gl::mat4_from(clip_from_world));

@@ -8,6 +8,7 @@
 
 #include "bench/detail/scan.h"
 #include "renderer/chunks.h"
+#include "renderer/skinning.h"
 #include "renderer/wall_renderer.h"
 #include "tests/renderer/gl_test.h"
 #include "tests/renderer/test_scenes.h"
@@ -147,7 +148,7 @@ TEST_F(LevelsGl, AreChosenFromTheTopAsTheyAreDefined) {
   EXPECT_THAT(scene.coarsest(), ::testing::UnorderedElementsAreArray(scene.draws_within(1e6)));
 }
 
-TEST_F(LevelsGl, MeetAtTheSeamsOfTiles) {
+Wall twelve_tiles() {
   const WallGrid grid{.columns = 4,
                       .rows = 3,
                       .width_m = 1.6,
@@ -155,7 +156,50 @@ TEST_F(LevelsGl, MeetAtTheSeamsOfTiles) {
                       .tile_width_px = 64,
                       .tile_height_px = 64,
                       .mount = {}};
-  const Wall tiles = expand_wall(grid, {}, {});
+  return expand_wall(grid, {}, {});
+}
+
+/// What the eye needs and the tile does not miss; the others are counted, none twice.
+TEST_F(LevelsGl, ThatATileShowsAreThoseOfTheEyeThatItSees) {
+  GpuScene scene = uploaded(pack(scan()), Look{Style::unlit});
+  const Wall tiles = twelve_tiles();
+  for (const auto& [eye, middle] : kEyesAndMiddles) {
+    scene.pose(matrix_of(Rigid3{.translation = middle}, 0.5), 0);
+    const DetailNeed need = detail_need(tiles, eye, 1);
+    const auto is_fine = [&](const GpuScene::Draw& draw, int coarsening) {
+      const Coarsening& level = scan().coarsenings[coarsening];
+      const Eigen::Matrix4f world_from_node =
+          matrix_of(Rigid3{.translation = middle}, 0.5).cast<float>();
+      EXPECT_EQ(draw.node, 0);
+      return fine_enough(need, eye, moved(level.bounds_in_node, world_from_node),
+                         0.5 * level.error_in_node);
+    };
+    std::size_t seen_by_all = 0;
+    for (const Tile& tile : tiles.tiles) {
+      View view = *tile_view(tile.corners, eye);
+      view.detail = need;
+      const ViewPlanes planes(view.clip_from_world);
+      std::set<const GpuScene::Draw*> expected;
+      for (const GpuScene::Draw& draw : scene.draws())
+        if ((draw.mesh.made_by < 0 || is_fine(draw, draw.mesh.made_by)) &&
+            (draw.mesh.replaced_by < 0 || !is_fine(draw, draw.mesh.replaced_by)) &&
+            !planes.miss(scene.bounds_in_world(draw)))
+          expected.insert(&draw);
+      const GpuScene::Seen seen = scene.seen_by(view);
+      EXPECT_THAT(seen.solid, ::testing::UnorderedElementsAreArray(expected)) << tile.name;
+      EXPECT_THAT(seen.blended, ::testing::IsEmpty());
+      EXPECT_EQ(seen.count.draws - seen.count.culled, static_cast<int>(expected.size()));
+      std::uint64_t triangles = 0;
+      for (const GpuScene::Draw* draw : expected) triangles += draw->mesh.index_count / 3;
+      EXPECT_EQ(seen.count.triangles - seen.count.culled_triangles, triangles);
+      seen_by_all += expected.size();
+    }
+    EXPECT_GT(seen_by_all, 20u);
+  }
+}
+
+TEST_F(LevelsGl, MeetAtTheSeamsOfTiles) {
+  const Wall tiles = twelve_tiles();
   for (const auto& [eye, middle] : kEyesAndMiddles) {
     const FrameState state = seen_from(eye, middle);
     const Image joined = draw(tiles, Look{Style::unlit}, scan(), state).picture;
