@@ -41,4 +41,10 @@ std::string find_in(const char* folder, const std::string& name) {
 std::string find_shader(const std::string& name) { return find_in("shaders", name); }
 std::string find_asset(const std::string& name) { return find_in("assets", name); }
 
+std::string find_font(const std::string& name) {
+  const fs::path carried = data_folder() / "fonts" / name;
+  std::error_code error;
+  return fs::exists(carried, error) ? carried.string() : "/usr/share/fonts/truetype/dejavu/" + name;
+}
+
 }  // namespace vindu

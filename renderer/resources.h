@@ -12,4 +12,8 @@ std::string find_shader(const std::string& name);
 /// Path of a file in the assets folder, "show/show.glb".
 std::string find_asset(const std::string& name);
 
+/// Path of a font, "DejaVuSans.ttf": in the folder fonts beside assets, where a bundle has it, else
+/// where Debian's package installs it.
+std::string find_font(const std::string& name);
+
 }  // namespace vindu

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "renderer/resources.h"
 
 namespace vindu {
 namespace {
@@ -28,8 +29,8 @@ struct Font {
 };
 
 const stbtt_fontinfo& font(bool bold) {
-  static const Font plain_font("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf");
-  static const Font bold_font("/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf");
+  static const Font plain_font(find_font("DejaVuSans.ttf"));
+  static const Font bold_font(find_font("DejaVuSans-Bold.ttf"));
   return bold ? bold_font.info : plain_font.info;
 }
 

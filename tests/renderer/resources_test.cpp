@@ -37,11 +37,15 @@ TEST(ResourcesDeathTest, AreTakenFromTheFolderThatTheEnvironmentNames) {
   const fs::path folder = fs::path(::testing::TempDir()) / "vindu-data";
   fs::create_directories(folder / "shaders");
   fs::create_directories(folder / "assets");
+  fs::create_directories(folder / "fonts");
   std::ofstream(folder / "assets/own.toml") << "own\n";
+  std::ofstream(folder / "fonts/Own.ttf") << "own\n";
   const auto found = [&] {
     setenv("VINDU_DATA", folder.c_str(), 1);
-    const std::string path = find_asset("own.toml");
-    std::exit(path == fs::canonical(folder / "assets/own.toml").string() ? 0 : 1);
+    const bool right = find_asset("own.toml") == fs::canonical(folder / "assets/own.toml") &&
+                       find_font("Own.ttf") == fs::canonical(folder / "fonts/Own.ttf") &&
+                       find_font("DejaVuSans.ttf").starts_with("/usr/share/fonts/");
+    std::exit(right ? 0 : 1);
   };
   EXPECT_EXIT(found(), ::testing::ExitedWithCode(0), "");
   fs::remove_all(folder);
