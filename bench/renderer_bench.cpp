@@ -11,6 +11,7 @@
 
 #include "core/site.h"
 #include "renderer/chunks.h"
+#include "renderer/culling.h"
 #include "renderer/import.h"
 #include "renderer/resources.h"
 #include "renderer/still_parts.h"
@@ -178,6 +179,58 @@ Scene parts() {
   }
   return scene;
 }
+
+/// 16 thousand boxes around the wall, as the pieces of a large scan are.
+std::vector<Box3f> many_boxes() {
+  std::vector<Box3f> boxes;
+  for (int index = 0; index < 16000; ++index) {
+    const Eigen::Vector3f low(0.05f * static_cast<float>(index % 160) - 4,
+                              0.05f * static_cast<float>(index / 160 % 100) - 2.5f,
+                              -0.3f * static_cast<float>(index % 7));
+    boxes.emplace_back(low, low + Eigen::Vector3f::Constant(0.05f));
+  }
+  return boxes;
+}
+
+/// Which of them each of 28 tiles sees, beside a test of each box by its corners' signs, as one
+/// would write it with Eigen.
+void boxes_seen_by_28_tiles(benchmark::State& state) {
+  std::vector<Mat4> views;
+  for (const Tile& tile : wall_of_28().tiles)
+    views.push_back(tile_view(tile.corners, kFrame.eye_in_wall)->clip_from_world);
+  const std::vector<Box3f> boxes = many_boxes();
+  BoxRows rows;
+  for (const Box3f& box : boxes) rows.add(box);
+  const auto one_by_one = [](const Mat4& clip_from_world, const Box3f& box) {
+    Eigen::Matrix<double, 4, 8> corners;
+    for (int i = 0; i < 8; ++i)
+      corners.col(i) = box.corner(static_cast<Box3f::CornerType>(i)).cast<double>().homogeneous();
+    const Eigen::Array<double, 4, 8> clip = clip_from_world * corners;
+    const auto all_beyond = [&](int axis, double side) {
+      return (side * clip.row(axis) > clip.row(3)).all();
+    };
+    return !(all_beyond(0, 1) || all_beyond(0, -1) || all_beyond(1, 1) || all_beyond(1, -1) ||
+             all_beyond(2, 1));
+  };
+  std::size_t seen = 0, seen_one_by_one = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (const Mat4& view : views)
+    for (const Box3f& box : boxes) seen_one_by_one += one_by_one(view, box);
+  const double reference_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto began = std::chrono::steady_clock::now();
+  for (auto _ : state) {
+    seen = 0;
+    for (const Mat4& view : views) seen += rows.seen_by(ViewPlanes(view)).size();
+  }
+  const double taken_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() /
+      static_cast<double>(state.iterations());
+  if (seen < seen_one_by_one) state.SkipWithError("boxes are missing");
+  state.counters["ratio_to_one_by_one"] = taken_s / reference_s;
+  state.counters["seen"] = static_cast<double>(seen);
+}
+BENCHMARK(boxes_seen_by_28_tiles)->Unit(benchmark::kMicrosecond);
 
 /// What a wall of 28 tiles pays for parts that vindu pack has joined, beside those that it has not.
 void ten_thousand_parts(benchmark::State& state) {
