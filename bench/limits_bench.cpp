@@ -26,8 +26,8 @@ namespace {
 
 struct Options {
   int triangles = 1600000;
-  double scale = 1;  // of the tiles' pixels
-  int frames = 60;
+  double scale = 0;  // of the tiles' pixels; 0: by who draws
+  int frames = 0;    // the same
   std::string out = "out";
   std::string ply;
 };
@@ -113,10 +113,13 @@ PackedScene plate() {
   return pack(std::move(scene));
 }
 
-void run(const Options& options) {
+void run(Options options) {
   Scene scan = scan_scene({options.triangles});
   if (!options.ply.empty()) return write_ply(scan, options.ply);
   const auto surface = make_headless_surface();
+  const bool slow = draws_in_software();
+  if (options.scale == 0) options.scale = slow ? 0.125 : 1;
+  if (options.frames == 0) options.frames = slow ? 5 : 60;
   std::filesystem::create_directories(options.out);
   cut_into_chunks(scan);
   const PackedScene full = pack(scan);
@@ -161,13 +164,14 @@ int main_of(int argc, char** argv) {
   CLI::App app(
       "What limits a frame of 28 tiles that a scan fills: its pixels, its triangles, or the "
       "calls.\n"
-      "Example: limits_bench --triangles 1600000\n"
-      "         limits_bench --scale 0.125 --frames 5, where no GPU is");
+      "Example: limits_bench --triangles 1600000");
   app.add_option("--triangles", options.triangles, "Of the scan (default: 1600000)")
       ->check(CLI::Range(100, 60000000));
-  app.add_option("--scale", options.scale, "Of the tiles' pixels (default: 1)")
+  app.add_option("--scale", options.scale,
+                 "Of the tiles' pixels (default: 1; 0.125 where the CPU draws)")
       ->check(CLI::Range(0.02, 1.0));
-  app.add_option("--frames", options.frames, "Of each (default: 60)")->check(CLI::Range(1, 10000));
+  app.add_option("--frames", options.frames, "Of each (default: 60; 5 where the CPU draws)")
+      ->check(CLI::Range(1, 10000));
   app.add_option("--out", options.out, "Folder for the picture (default: out)");
   app.add_option("--ply", options.ply, "Writes the scan to this file, and no more")
       ->type_name("FILE");
