@@ -34,7 +34,7 @@ TEST_F(TrackCommand, PrintsPosesAndWhatItLearnsOfTheCamerasAsJson) {
   const ProcessResult result = vindu({"track", "--json", "--seconds", "3"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto poses = lines_with(result.out, "eye_in_wall_m");
-  ASSERT_GT(poses.size(), 40u);
+  ASSERT_GT(poses.size(), 10u);
   EXPECT_THAT(poses.back(), ContainsRegex(R"("object":0,"level":"six-dof","eye_in_wall_m":\[)"));
   EXPECT_THAT(poses.back(), ContainsRegex(R"("sigma_m":0\.00)"));
   for (std::size_t i = 1; i < poses.size(); ++i)

@@ -159,32 +159,38 @@ Wall twelve_tiles() {
   return expand_wall(grid, {}, {});
 }
 
+/// Of a scene's draws those that its levels' definition chooses and the planes do not miss.
+template <class IsFine>
+std::set<const GpuScene::Draw*> expected_of(const GpuScene& scene, const ViewPlanes& planes,
+                                            IsFine is_fine) {
+  std::set<const GpuScene::Draw*> expected;
+  for (const GpuScene::Draw& draw : scene.draws())
+    if ((draw.mesh.made_by < 0 || is_fine(draw.mesh.made_by)) &&
+        (draw.mesh.replaced_by < 0 || !is_fine(draw.mesh.replaced_by)) &&
+        !planes.miss(scene.bounds_in_world(draw)))
+      expected.insert(&draw);
+  return expected;
+}
+
 /// What the eye needs and the tile does not miss; the others are counted, none twice.
 TEST_F(LevelsGl, ThatATileShowsAreThoseOfTheEyeThatItSees) {
   GpuScene scene = uploaded(pack(scan()), Look{Style::unlit});
   const Wall tiles = twelve_tiles();
-  for (const auto& [eye, middle] : kEyesAndMiddles) {
-    scene.pose(matrix_of(Rigid3{.translation = middle}, 0.5), 0);
+  for (const auto& place : kEyesAndMiddles) {
+    const Vec3& eye = place.first;
+    const Mat4 world_from_scene = matrix_of(Rigid3{.translation = place.second}, 0.5);
+    scene.pose(world_from_scene, 0);
     const DetailNeed need = detail_need(tiles, eye, 1);
-    const auto is_fine = [&](const GpuScene::Draw& draw, int coarsening) {
+    const auto is_fine = [&](int coarsening) {
       const Coarsening& level = scan().coarsenings[coarsening];
-      const Eigen::Matrix4f world_from_node =
-          matrix_of(Rigid3{.translation = middle}, 0.5).cast<float>();
-      EXPECT_EQ(draw.node, 0);
-      return fine_enough(need, eye, moved(level.bounds_in_node, world_from_node),
+      return fine_enough(need, eye, moved(level.bounds_in_node, world_from_scene.cast<float>()),
                          0.5 * level.error_in_node);
     };
     std::size_t seen_by_all = 0;
     for (const Tile& tile : tiles.tiles) {
       View view = *tile_view(tile.corners, eye);
       view.detail = need;
-      const ViewPlanes planes(view.clip_from_world);
-      std::set<const GpuScene::Draw*> expected;
-      for (const GpuScene::Draw& draw : scene.draws())
-        if ((draw.mesh.made_by < 0 || is_fine(draw, draw.mesh.made_by)) &&
-            (draw.mesh.replaced_by < 0 || !is_fine(draw, draw.mesh.replaced_by)) &&
-            !planes.miss(scene.bounds_in_world(draw)))
-          expected.insert(&draw);
+      const auto expected = expected_of(scene, ViewPlanes(view.clip_from_world), is_fine);
       const GpuScene::Seen seen = scene.seen_by(view);
       EXPECT_THAT(seen.solid, ::testing::UnorderedElementsAreArray(expected)) << tile.name;
       EXPECT_THAT(seen.blended, ::testing::IsEmpty());
