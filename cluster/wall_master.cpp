@@ -8,8 +8,6 @@
 namespace vindu {
 namespace {
 
-/// A frame message that is not heard costs a tile this long.
-constexpr Duration kRepeat = std::chrono::milliseconds(4);
 /// While nothing changes: how often the newest frame is said again, for who has just started; and
 /// how often there is a new one.
 constexpr Duration kHeartbeat = std::chrono::milliseconds(100);
@@ -31,15 +29,18 @@ WallMaster::WallMaster(Bus& bus, Options options)
 void WallMaster::poll(Time now) {
   for (const Presence& presence : bus_.take<Presence>()) hear(presence, now);
   for (const StatusMessage& status : bus_.take<StatusMessage>()) hear(status, now);
-  for (const ReadyMessage& ready : bus_.take<ReadyMessage>()) hear(ready, now);
-  if (barrier_.settle(now) || (newest_ > 0 && now >= repeat_time())) publish(now);
+  bool news = false;  // for all who asked, or wait, one message
+  for (const ReadyMessage& ready : bus_.take<ReadyMessage>()) news |= hear(ready, now);
+  news |= barrier_.settle(now);
+  if (news) publish(now);
+  if (newest_ > 0 && now >= repeat_time()) repeat(now);
   for (auto& [tile, report] : tiles_) report.locked = barrier_.takes_part(tile);
   if (std::exchange(active_, barrier_.active()) != barrier_.active()) stirred_ = now;
   change_scene();
 }
 
 Time WallMaster::repeat_time() const {
-  return published_ + (barrier_.open() ? kHeartbeat : kRepeat);
+  return barrier_.open() ? published_ + kHeartbeat : repeats_.due();
 }
 
 Time WallMaster::wake_time() const {
@@ -66,15 +67,25 @@ void WallMaster::report(ReportMessage report) {
 }
 
 void WallMaster::publish(Time now) {
+  repeats_.said(now);
+  send(now);
+}
+
+void WallMaster::repeat(Time now) {
+  repeats_.said_again(now);
+  send(now);
+}
+
+void WallMaster::send(Time now) {
   FrameMessage message = barrier_.message(now);
   message.origin = origin_;
   bus_.publish(message);
   published_ = now;
 }
 
-void WallMaster::hear(const ReadyMessage& ready, Time now) {
+bool WallMaster::hear(const ReadyMessage& ready, Time now) {
   const auto found = tiles_.find(ready.tile);
-  if (found == tiles_.end() || ready.epoch != options_.epoch) return;
+  if (found == tiles_.end() || ready.epoch != options_.epoch) return false;
   TileReport& report = found->second;
   if (!report.locked) stirred_ = now;  // it wants to come in
   report.draw_time = ready.draw_time;
@@ -89,7 +100,7 @@ void WallMaster::hear(const ReadyMessage& ready, Time now) {
     report.clock = clock.at(now);
   }
   note_swap(ready, report);
-  if (barrier_.hear(ready, now)) publish(now);
+  return barrier_.hear(ready, now);
 }
 
 void WallMaster::note_swap(const ReadyMessage& ready, TileReport& report) {

@@ -10,6 +10,7 @@
 #include "cluster/barrier.h"
 #include "cluster/bus.h"
 #include "cluster/clock_offset.h"
+#include "cluster/repeats.h"
 
 namespace vindu {
 
@@ -90,12 +91,14 @@ class WallMaster {
   std::uint64_t newest() const { return newest_; }
 
  private:
-  void hear(const ReadyMessage& ready, Time now);
+  bool hear(const ReadyMessage& ready, Time now);  ///< whether it has to be answered
   void hear(const StatusMessage& status, Time now);
   void hear(const Presence& presence, Time now);
   void note_swap(const ReadyMessage& ready, TileReport& report);
   void change_scene();
   void publish(Time now);
+  void repeat(Time now);
+  void send(Time now);
   Time repeat_time() const;
 
   Bus& bus_;
@@ -109,6 +112,7 @@ class WallMaster {
   std::uint64_t asked_scene_, shown_scene_;   // from the epoch on: no two masters' are alike
   std::uint64_t newest_ = 0;
   FrameOrigin origin_;  // of the newest
+  Repeats repeats_;
   Time published_{}, begun_{};
   Time stirred_{};          // when something last changed: what is seen, or who sees it
   std::size_t active_ = 0;  // when it was last looked at

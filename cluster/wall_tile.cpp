@@ -5,7 +5,6 @@
 namespace vindu {
 namespace {
 
-constexpr Duration kRepeatReady = std::chrono::milliseconds(4);
 constexpr Duration kReport = std::chrono::milliseconds(200);
 constexpr Duration kCount = std::chrono::seconds(1);
 
@@ -19,13 +18,16 @@ void WallTile::poll(Time now) {
   for (SceneMessage& scene : bus_.take<SceneMessage>()) {
     scene_ = std::move(scene);
   }
-  if (barrier_.waits() && now - said_ready_ >= kRepeatReady) say_ready(now);
+  if (barrier_.waits() && now >= repeats_.due()) {
+    repeats_.said_again(now);
+    send_ready(now);
+  }
   if (now - reported_ >= kReport) report(now);
 }
 
 Time WallTile::wake_time(Time now) const {
   Time wake = reported_ + kReport;
-  if (barrier_.waits()) wake = std::min(wake, said_ready_ + kRepeatReady);
+  if (barrier_.waits()) wake = std::min(wake, repeats_.due());
   if (const auto show = barrier_.show_time(now)) wake = std::min(wake, *show);
   return wake;
 }
@@ -44,12 +46,16 @@ void WallTile::drew(std::uint64_t number, Time started, Time now) {
 }
 
 void WallTile::say_ready(Time now) {
+  repeats_.said(now);
+  send_ready(now);
+}
+
+void WallTile::send_ready(Time now) {
   ReadyMessage ready = barrier_.ready(now);
   for (const std::string& tile : tiles_) {
     ready.tile = tile;
     bus_.publish(ready);
   }
-  said_ready_ = now;
 }
 
 // Said at once: the swap's time, and with it the skew, comes with the next frame's readiness else,

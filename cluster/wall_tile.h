@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cluster/bus.h"
+#include "cluster/repeats.h"
 #include "cluster/tile_barrier.h"
 
 namespace vindu {
@@ -62,13 +63,15 @@ class WallTile {
  private:
   void report(Time now);
   void say_ready(Time now);
+  void send_ready(Time now);
 
   Bus& bus_;
   std::vector<std::string> tiles_;
   TileBarrier barrier_;
   StatusMessage status_;
   std::optional<SceneMessage> scene_;
-  Time reported_{}, said_ready_{}, counted_{};
+  Repeats repeats_;
+  Time reported_{}, counted_{};
   std::uint64_t frames_ = 0;  // since counted_
 };
 

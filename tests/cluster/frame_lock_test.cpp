@@ -150,6 +150,26 @@ TEST(FrameLock, HoldsTogetherWhereAllAreSlow) {
   EXPECT_GT(wall.begun(), 80u);
 }
 
+/// Whoever hears them must not be kept from drawing by them.
+TEST(FrameLock, SaysLittleWhileItWaitsForSlowTiles) {
+  SimulatedWall wall(28);
+  for (auto& tile : wall.tiles) tile->spec = {.draw_ms = 40, .draw_jitter_ms = 2};
+  wall.tiles[5]->spec = {.draw_ms = 5, .draw_jitter_ms = 1};
+  wall.run(5);
+  const auto before = wall.begun();
+  const std::size_t by_master = wall.bus().published, by_tile = wall.tiles[5]->bus.published;
+  wall.run(10);
+  const auto frames = static_cast<double>(wall.begun() - before);
+  EXPECT_GT(frames, 150);
+  EXPECT_EQ(wall.master().active(), 28u);
+  const double of_master = static_cast<double>(wall.bus().published - by_master) / frames;
+  const double of_tile = static_cast<double>(wall.tiles[5]->bus.published - by_tile) / frames;
+  std::printf("  a frame of 40 ms: %.1f messages by the master, %.1f by a tile\n", of_master,
+              of_tile);
+  EXPECT_LT(of_master, 9);  // begin, five repeats, release, an answer or two
+  EXPECT_LT(of_tile, 8);    // ready, four repeats, shown; its state now and then
+}
+
 TEST(FrameLock, FollowsAMasterThatStartsAgain) {
   SimulatedWall wall(28);
   wall.run(3);

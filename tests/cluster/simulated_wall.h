@@ -55,8 +55,10 @@ class SimulatedBus final : public Bus {
   std::vector<SimulatedBus*> others;
   bool plugged = true;
   bool awake = true;
+  std::size_t published = 0;  // messages
 
   void publish(const Message& message) override {
+    ++published;
     if (!plugged) return;
     for (SimulatedBus* other : others) {
       double delay_ms = world_.uniform(link_.least_ms, link_.most_ms);
@@ -231,6 +233,7 @@ class SimulatedWall {
   std::vector<FrameSkew> skews;
   std::optional<double> still_eye_x_m;  // of all frames from now on
 
+  SimulatedBus& bus() { return bus_; }
   WallMaster& master() { return *master_; }
 
   void start_master(std::uint64_t epoch) {
