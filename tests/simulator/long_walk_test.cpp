@@ -97,7 +97,7 @@ TEST_P(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
   EXPECT_GT(tracked, static_cast<int>(frames.size() / 2));
 }
 
-INSTANTIATE_TEST_SUITE_P(Walkers, LongWalk, ::testing::Values(1, 3, 29));
+INSTANTIATE_TEST_SUITE_P(Walkers, LongWalk, ::testing::Values(1, 3, 29, 74));
 
 }  // namespace
 }  // namespace vindu

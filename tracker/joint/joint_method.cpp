@@ -290,21 +290,28 @@ bool JointMethod::contradicted(std::size_t head) const {
   return own < kFew && left > kLeftPerOwn * own;
 }
 
-/// Whether so many dots agree lately that they would not if one were taken for another LED's: three
-/// of two cameras always fit some pose. One camera alone has no more.
+/// Whether what was seen lately tells one LED from another: three of two cameras' dots always fit
+/// some pose, and so do two LEDs whichever they are. One camera alone has no more than three dots.
 bool JointMethod::sure(std::size_t head) const {
   constexpr Duration kLately = Milliseconds(80);
   std::vector<std::ptrdiff_t> most(cameras_.size());  // dots of one report
+  std::array<bool, kMaxLeds> seen{};
   for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
     if (entries_.back().seen.captured - entry->seen.captured > kLately) break;
-    auto& dots = most[static_cast<std::size_t>(entry->seen.camera)];
-    dots = std::max(dots, std::ranges::count(entry->association.accepted, static_cast<int>(head),
-                                             &AcceptedDot::head));
+    std::ptrdiff_t dots = 0;
+    for (const AcceptedDot& dot : entry->association.accepted) {
+      if (dot.head != static_cast<int>(head)) continue;
+      seen[static_cast<std::size_t>(dot.led)] = true;
+      ++dots;
+    }
+    auto& of_camera = most[static_cast<std::size_t>(entry->seen.camera)];
+    of_camera = std::max(of_camera, dots);
   }
   const std::ptrdiff_t leds = std::ssize(leds_of_heads_[head]);
-  const auto needed = cameras_.size() == 1 ? std::min<std::ptrdiff_t>(leds, 3)
-                                           : std::min<std::ptrdiff_t>(2 * leds, 4);
-  return std::accumulate(most.begin(), most.end(), std::ptrdiff_t{0}) >= needed;
+  const auto dots_needed = cameras_.size() == 1 ? std::min<std::ptrdiff_t>(leds, 3)
+                                                : std::min<std::ptrdiff_t>(2 * leds, 4);
+  return std::accumulate(most.begin(), most.end(), std::ptrdiff_t{0}) >= dots_needed &&
+         std::ranges::count(seen, true) >= std::min<std::ptrdiff_t>(leds, 3);
 }
 
 // One that is tracked is looked for as well; where nothing speaks against it, by one step a
