@@ -12,6 +12,7 @@
 #include <fstream>
 #include <thread>
 
+#include "bench/command.h"
 #include "bench/detail/others.h"
 #include "bench/detail/scan.h"
 #include "bench/log_plot.h"
@@ -272,23 +273,13 @@ int main_of(int argc, char** argv) {
   app.add_flag("--pvbatch", options.pvbatch, "Debian's ParaView beside it: python3-paraview");
   app.add_option("--out", options.out, "Folder for the pictures (default: out)");
   app.add_option("--plot", options.plot, "Writes the times as a picture")->type_name("PNG");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  run(options);
-  return 0;
+  return run_command(app, argc, argv, [&] {
+    run(options);
+    return 0;
+  });
 }
 
 }  // namespace
 }  // namespace vindu
 
-int main(int argc, char** argv) {
-  try {
-    return vindu::main_of(argc, argv);
-  } catch (const vindu::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return vindu::main_of(argc, argv); }

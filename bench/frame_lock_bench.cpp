@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "bench/command.h"
 #include "bench/frame_lock/launch.h"
 #include "bench/frame_lock/plot.h"
 #include "bench/frame_lock/run.h"
@@ -143,28 +144,18 @@ int main_of(int argc, char** argv) {
   as_tile->add_option("kind", kind);
   as_tile->add_option("tile", tile);
   as_tile->add_option("sheet", sheet_file);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  if (as_tile->parsed()) {
-    play_tile(kind, tile, sheet_file);
-    return 1;
-  }
-  std::ranges::sort(options.tiles);
-  std::ranges::sort(options.draw_ms);
-  return run(options) ? 0 : 1;
+  return run_command(app, argc, argv, [&] {
+    if (as_tile->parsed()) {
+      play_tile(kind, tile, sheet_file);
+      return 1;
+    }
+    std::ranges::sort(options.tiles);
+    std::ranges::sort(options.draw_ms);
+    return run(options) ? 0 : 1;
+  });
 }
 
 }  // namespace
 }  // namespace vindu
 
-int main(int argc, char** argv) {
-  try {
-    return vindu::main_of(argc, argv);
-  } catch (const vindu::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return vindu::main_of(argc, argv); }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "bench/command.h"
 #include "bench/detail/others.h"
 #include "bench/detail/scan.h"
 #include "bench/quantile.h"
@@ -175,23 +176,13 @@ int main_of(int argc, char** argv) {
   app.add_option("--out", options.out, "Folder for the picture (default: out)");
   app.add_option("--ply", options.ply, "Writes the scan to this file, and no more")
       ->type_name("FILE");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  run(options);
-  return 0;
+  return run_command(app, argc, argv, [&] {
+    run(options);
+    return 0;
+  });
 }
 
 }  // namespace
 }  // namespace vindu
 
-int main(int argc, char** argv) {
-  try {
-    return vindu::main_of(argc, argv);
-  } catch (const vindu::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return vindu::main_of(argc, argv); }
