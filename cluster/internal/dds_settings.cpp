@@ -1,6 +1,7 @@
 // Cyclone's configuration. Discovery by a star (peers are announced to every 250 ms; the default of
-// 8 s is what tiles would wait that start before the master) or, on loopback, by multicast; data by
-// multicast unless that is off. The measurements are cited in decision 6.
+// 8 s is what tiles would wait that start before the master) or, where no master is named, by
+// multicast: all hear all there, so each says so as seldom as its lease allows. Data by multicast
+// unless that is off. The measurements are cited in decision 6.
 #include <algorithm>
 
 #include "cluster/dds.h"
@@ -67,8 +68,10 @@ std::string dds_configuration(const DdsSettings& settings, const std::string& en
   if (local) peers = {"127.0.0.1"};
   const bool star = !peers.empty();
   return domain_xml(general(settings, star) + "<Discovery>" + which +
-                    "<SPDPInterval>250ms</SPDPInterval><LeaseDuration>1s</LeaseDuration>" +
-                    (star ? star_discovery(peers, local ? 100 : 12) : "") + "</Discovery>");
+                    "<LeaseDuration>1s</LeaseDuration><SPDPInterval>" +
+                    (star ? "250ms</SPDPInterval>" + star_discovery(peers, local ? 100 : 12)
+                          : "800ms</SPDPInterval>") +
+                    "</Discovery>");
 }
 
 }  // namespace vindu
