@@ -1,6 +1,7 @@
 #include "tracker/eye_ease.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vindu {
 namespace {
@@ -21,29 +22,33 @@ EyeEase::EyeEase(const Vec3& default_eye_in_wall, const EyeEaseOptions& options)
 
 Vec3 EyeEase::update(const std::optional<Vec3>& tracked_eye_in_wall, Time now) {
   const Phase phase = tracked_eye_in_wall ? Phase::tracked : Phase::lost;
-  const bool leap = tracked_eye_in_wall && leapt(*tracked_eye_in_wall, now);
-  if (!started_ || phase != phase_ || leap) {
-    started_ = true;
-    phase_ = phase;
-    since_ = now;
-    start_ = tracked_eye_in_wall ? Vec3(shown_in_wall_ - *tracked_eye_in_wall) : shown_in_wall_;
+  const bool goes_on = started_ && phase == phase_;
+  const double dt_s = seconds(now - std::exchange(updated_at_, now));
+  started_ = true;
+  phase_ = phase;
+  if (!tracked_eye_in_wall) {
+    if (!goes_on) {
+      since_ = now;
+      start_ = shown_in_wall_;
+    }
+    return shown_in_wall_ = hold_or_return(now);
   }
-  shown_in_wall_ = tracked_eye_in_wall ? follow(*tracked_eye_in_wall, now) : hold_or_return(now);
-  return shown_in_wall_;
+  const Vec3 step = *tracked_eye_in_wall - std::exchange(tracked_in_wall_, *tracked_eye_in_wall);
+  if (!goes_on) velocity_m_s_.setZero();
+  if (!goes_on || leapt(step, dt_s)) {
+    start_ = shown_in_wall_ - *tracked_eye_in_wall;
+    melted_s_ = 0;
+  } else {
+    melt(step.norm(), dt_s);
+  }
+  return shown_in_wall_ = *tracked_eye_in_wall + left_after(melted_s_);
 }
 
 // Whether the tracked eye is not where its motion over the last frames would have brought it. What
 // is known of that motion follows as fast as people accelerate, and no leap.
-bool EyeEase::leapt(const Vec3& tracked_eye_in_wall, Time now) {
-  const double dt_s = seconds(now - tracked_at_);
-  const bool follows = started_ && phase_ == Phase::tracked && dt_s > 0;
-  const Vec3 surprise = tracked_eye_in_wall - tracked_in_wall_ - dt_s * velocity_m_s_;
-  tracked_in_wall_ = tracked_eye_in_wall;
-  tracked_at_ = now;
-  if (!follows) {
-    velocity_m_s_.setZero();
-    return false;
-  }
+bool EyeEase::leapt(const Vec3& step, double dt_s) {
+  if (dt_s <= 0) return false;
+  const Vec3 surprise = step - dt_s * velocity_m_s_;
   const double change_m_s = surprise.norm() / dt_s;
   const double largest_m_s = options_.acceleration_m_s2 * dt_s;
   velocity_m_s_ += std::min(1.0, largest_m_s / std::max(change_m_s, 1e-9)) * surprise / dt_s;
@@ -52,11 +57,18 @@ bool EyeEase::leapt(const Vec3& tracked_eye_in_wall, Time now) {
 
 // The offset at the start melts; the time it takes grows with it, so that a short gap in the
 // tracking costs milliseconds and a long way is not leapt.
-Vec3 EyeEase::follow(const Vec3& tracked_eye_in_wall, Time now) {
+Vec3 EyeEase::left_after(double melted_s) const {
   const double within_s = 1.5 * start_.norm() / options_.catch_up_m_s;
-  const double passed_s = seconds(now - since_);
-  if (passed_s >= within_s) return tracked_eye_in_wall;
-  return tracked_eye_in_wall + (1 - smooth_step(passed_s / within_s)) * start_;
+  if (melted_s >= within_s) return Vec3::Zero();
+  return (1 - smooth_step(melted_s / within_s)) * start_;
+}
+
+// The slower, the more of the speed that a shown eye may have is that of the tracked one.
+void EyeEase::melt(double way_m, double dt_s) {
+  const double melts_m = (left_after(melted_s_ + dt_s) - left_after(melted_s_)).norm();
+  if (melts_m == 0) return;
+  const double spare_m = options_.most_m_s * dt_s - way_m;
+  melted_s_ += std::clamp(spare_m / melts_m, 0.0, 1.0) * dt_s;
 }
 
 Vec3 EyeEase::hold_or_return(Time now) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace vindu {
 namespace {
 
@@ -75,6 +77,20 @@ TEST(EyeEase, follows_a_correction_of_the_tracker_softly_and_to_its_end) {
   show.run(corrected, kFrame);
   EXPECT_LT((show.run(corrected, kFrame) - kViewer).norm(), 0.02);
   EXPECT_EQ(show.run(corrected, std::chrono::seconds(1)), corrected);
+}
+
+TEST(EyeEase, catches_up_with_an_eye_that_runs_away_no_faster_than_heads_move) {
+  EyeEase ease(kDefault);
+  Time now{};
+  Vec3 eye = kDefault + Vec3(0.3, 0, 0), shown = ease.update(eye, now);
+  double largest_m_s = 0;
+  for (int frame = 0; frame < 300; ++frame) {
+    eye.x() += (frame < 120 ? 0.9 : 0.2) * seconds(kFrame);
+    const Vec3 before = std::exchange(shown, ease.update(eye, now += kFrame));
+    largest_m_s = std::max(largest_m_s, (shown - before).norm() / seconds(kFrame));
+  }
+  EXPECT_LT(largest_m_s, EyeEaseOptions{}.most_m_s * 1.01);
+  EXPECT_EQ(shown, eye);
 }
 
 TEST(EyeEase, does_not_lag_behind_a_head_that_sets_off) {
