@@ -20,8 +20,9 @@ constexpr Duration kTogether = Milliseconds(17);      // apart, two pictures sti
 constexpr Duration kFresh = Milliseconds(80);         // older reports find no heads
 constexpr Duration kLook = Milliseconds(25);          // between two looks for a lost head
 constexpr Duration kDoubt = Milliseconds(50);         // between two checks of a doubtful one
-constexpr Duration kCheck = std::chrono::seconds(2);  // and of one that explains all dots
-constexpr Duration kLevelWindow = Milliseconds(35);   // that the level is judged by
+constexpr Duration kCheck = std::chrono::seconds(2);  // and of one that explains all dots,
+constexpr Duration kCheckMany = std::chrono::seconds(10);  // so many that they agree on no other
+constexpr Duration kLevelWindow = Milliseconds(35);        // that the level is judged by
 constexpr Duration kHeld = Milliseconds(250);
 constexpr Duration kLost = std::chrono::seconds(2);
 constexpr Duration kRemembered = Milliseconds(500);  // what was sure, to place the eye by
@@ -237,19 +238,30 @@ AcquisitionOptions JointMethod::acquisition_options(const HeadTrack& head) const
   return options;
 }
 
-/// Whether some camera's newest report has dots that nobody explains, or the head surprises.
-bool JointMethod::doubtful(std::size_t head) const {
+/// Doubtful is a head that surprises, or leaves dots of the cameras' newest reports to nobody: few
+/// beside many of its own are lamps, unless a camera has nothing else.
+Duration JointMethod::pause_of_looks(std::size_t head) const {
   constexpr double kSurprising = 4;
-  if (newest_heads()[head].surprise > kSurprising) return true;
+  constexpr std::ptrdiff_t kOwnPerLeft = 4;
+  const HeadTrack& track = newest_heads()[head];
+  if (!track.state) return kLook;
   std::vector<bool> done(cameras_.size(), false);
+  std::ptrdiff_t own = 0, left = 0;
+  bool nothing_else = false;
   for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
     if (done[static_cast<std::size_t>(entry->seen.camera)]) continue;
     done[static_cast<std::size_t>(entry->seen.camera)] = true;
+    const auto& accepted = entry->association.accepted;
     const auto unmasked = static_cast<std::ptrdiff_t>(entry->seen.dots.size()) -
                           std::ranges::count(entry->seen.masked, true);
-    if (std::ssize(entry->association.accepted) < unmasked) return true;
+    const auto left_here = std::max<std::ptrdiff_t>(0, unmasked - std::ssize(accepted));
+    own += std::ranges::count(accepted, static_cast<int>(head), &AcceptedDot::head);
+    left += left_here;
+    nothing_else |= accepted.empty() && left_here >= 2;
   }
-  return false;
+  if (track.surprise > kSurprising || nothing_else) return kDoubt;
+  if (own < kManyDots) return left > 0 ? kDoubt : kCheck;
+  return kOwnPerLeft * left > own ? kDoubt : left > 0 ? kCheck : kCheckMany;
 }
 
 bool JointMethod::bears(const Entry& entry, std::size_t head) {
@@ -320,8 +332,7 @@ void JointMethod::look_for(std::size_t head, Time now) {
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   if (entries_.empty()) return;
   Search& search = searches_[head];
-  const bool lost = !newest_heads()[head].state;
-  const Duration pause = lost ? kLook : doubtful(head) ? kDoubt : kCheck;
+  const Duration pause = pause_of_looks(head);
   if (now - search.looked < pause) return;
   search.looked = now;
   search.look.reset();
@@ -341,7 +352,7 @@ void JointMethod::look_for(std::size_t head, Time now) {
                                           acquisition_options(track)),
                      .camera = seen.camera,
                      .captured = seen.captured,
-                     .steps = pause == kCheck && !search.rumour ? 1 : kAll};
+                     .steps = pause >= kCheck && !search.rumour ? 1 : kAll};
   if (track.state) search.look->tracked = track.state->room_from_head;
 }
 

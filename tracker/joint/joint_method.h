@@ -96,7 +96,7 @@ class JointMethod {
   std::vector<std::size_t> together(Time common) const;
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart) const;
   AcquisitionOptions acquisition_options(const HeadTrack& head) const;
-  bool doubtful(std::size_t head) const;
+  Duration pause_of_looks(std::size_t head) const;
   bool contradicted(std::size_t head) const;
   bool sure(std::size_t head) const;
   static bool bears(const Entry& entry, std::size_t head);
