@@ -113,7 +113,7 @@ TEST_P(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
   EXPECT_LE(wrong.longest_s(), 0.1);
   EXPECT_LE(needlessly_off.longest_s(), 0.4);
   EXPECT_LT(largest_jump_m, 0.02);
-  EXPECT_LT(errors.eye_max_m, 0.6);
+  EXPECT_LT(errors.eye_max_m, 0.7);  // one camera, two dots
   EXPECT_GT(tracked, static_cast<int>(frames.size() / 2));
 }
 
