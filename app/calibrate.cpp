@@ -179,7 +179,7 @@ double coverage_so_far(const Capture& capture, std::size_t camera, const Site& s
   Coverage coverage;
   for (const Observation& seen : capture.observations)
     if (static_cast<std::size_t>(seen.camera) == camera)
-      for (const Dot& dot : seen.dots) coverage.add({dot.x_px, dot.y_px}, size_px.x(), size_px.y());
+      for (const Dot& dot : seen.dots) coverage.add({dot.x_px, dot.y_px}, size_px);
   return coverage.share();
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "tracker/camera_model.h"
 #include "tracker/ir_camera/ir_camera.h"
 #include "tracker/wiimote/find.h"
 #include "tracker/wiimote/hidapi_bus.h"
@@ -27,12 +26,6 @@ CameraState state_of(const LiveWiimote& wiimote) {
 
 WiimoteSettings wiimote_settings(const CameraConfig& camera, int number) {
   return {.format = camera.dot_format, .sensitivity = camera.sensitivity, .player = number + 1};
-}
-
-Vec2 picture_size_px(const CameraConfig& camera) {
-  if (camera.source == CameraSource::video)
-    return Vec2(camera.video.width_px, camera.video.height_px);
-  return {kWiimoteWidth_px, kWiimoteHeight_px};
 }
 
 bool all_emulated(const Site& site) {

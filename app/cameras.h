@@ -63,9 +63,6 @@ class Cameras {
   std::vector<std::function<CameraState()>> states_;  // of some of the sources
 };
 
-/// Width and height of what a camera's dots lie in.
-Vec2 picture_size_px(const CameraConfig& camera);
-
 /// The simulated person is what the cameras see: nothing else moves the eye.
 bool all_emulated(const Site& site);
 

@@ -8,11 +8,11 @@
 #include <memory>
 
 #include "app/calibrate.h"
-#include "app/cameras.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/site_json.h"
 #include "core/error.h"
+#include "tracker/camera_model.h"
 
 namespace vindu::app {
 namespace {

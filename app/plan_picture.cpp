@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "app/cameras.h"
 #include "renderer/diagram.h"
+#include "tracker/camera_model.h"
 
 namespace vindu::app {
 namespace {

@@ -18,6 +18,12 @@ double radius2_of_fold(const Intrinsics& intrinsics) {
 
 }  // namespace
 
+Vec2 picture_size_px(const CameraConfig& camera) {
+  if (camera.source == CameraSource::video)
+    return Vec2(camera.video.width_px, camera.video.height_px);
+  return {kWiimoteWidth_px, kWiimoteHeight_px};
+}
+
 Vec2 image_from_raw(CameraSource source, const Vec2& raw_px) {
   if (source == CameraSource::video) return raw_px;
   return {raw_px.x(), kWiimoteHeight_px - 1 - raw_px.y()};

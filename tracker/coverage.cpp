@@ -52,10 +52,9 @@ Sight& Sight::operator+=(const Sight& other) {
 }
 
 Onlooker::Onlooker(const CameraConfig& camera)
-    : model_(camera), size_px_(kWiimoteWidth_px, kWiimoteHeight_px), most_dots_(kWiimoteDots) {
-  if (camera.source != CameraSource::video) return;
-  size_px_ = Vec2(camera.video.width_px, camera.video.height_px);
-  most_dots_ = static_cast<std::size_t>(camera.video.blobs.max_dots);
+    : model_(camera), size_px_(picture_size_px(camera)), most_dots_(kWiimoteDots) {
+  if (camera.source == CameraSource::video)
+    most_dots_ = static_cast<std::size_t>(camera.video.blobs.max_dots);
 }
 
 // With the pose disturbed as x_led = eye + d_eye + exp(d_rotation) (x_led - eye), a dot moves by

@@ -213,11 +213,7 @@ LensResult calibrate_lens(const Capture& capture, const std::vector<CameraConfig
   result.rms_px = problem.rms();
   const Eigen::VectorXd sigma = problem.sigma(lens.data(), 9);
   for (const GridView& view : views)
-    for (const Vec2& dot : view.dots_px) {
-      const bool video = cameras[camera].source == CameraSource::video;
-      result.coverage.add(dot, video ? cameras[camera].video.width_px : kWiimoteWidth_px,
-                          video ? cameras[camera].video.height_px : kWiimoteHeight_px);
-    }
+    for (const Vec2& dot : view.dots_px) result.coverage.add(dot, picture_size_px(cameras[camera]));
   if (sigma.size() == 9) {
     result.focal_sigma_px = sigma[0];
     result.centre_sigma_px = sigma.segment<2>(2);

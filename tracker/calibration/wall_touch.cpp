@@ -25,12 +25,9 @@ int cameras_that_see(const Site& site, const Vec3& x_in_wall) {
     const CameraModel model(camera);
     const auto raw_px =
         model.project(model.camera_from_room() * (site.wall.room_from_wall * x_in_wall));
-    const bool video = camera.source == CameraSource::video;
-    const double width_px = video ? camera.video.width_px : kWiimoteWidth_px;
-    const double height_px = video ? camera.video.height_px : kWiimoteHeight_px;
     constexpr double kEdge_px = 30;
-    return raw_px && raw_px->minCoeff() > kEdge_px && raw_px->x() < width_px - kEdge_px &&
-           raw_px->y() < height_px - kEdge_px;
+    return raw_px && raw_px->minCoeff() > kEdge_px &&
+           (picture_size_px(camera) - *raw_px).minCoeff() > kEdge_px;
   }));
 }
 

@@ -19,7 +19,7 @@ struct Coverage {
   static constexpr int kColumns = 8, kRows = 6;
   std::array<int, std::size_t{kColumns} * kRows> dots{};
 
-  void add(const Vec2& image_px, double width_px, double height_px);
+  void add(const Vec2& image_px, const Vec2& size_px);
   /// Share of the cells that have any.
   double share() const;
 };

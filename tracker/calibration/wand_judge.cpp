@@ -81,12 +81,12 @@ std::vector<SolvedPoint> solve_wand(const std::vector<CameraModel>& models, cons
 
 }  // namespace
 
-void Coverage::add(const Vec2& image_px, double width_px, double height_px) {
+void Coverage::add(const Vec2& image_px, const Vec2& size_px) {
   const auto cell = [](double share, int cells) {
     return std::clamp(static_cast<int>(share * cells), 0, cells - 1);
   };
-  const int row = cell(image_px.y() / height_px, kRows),
-            column = cell(image_px.x() / width_px, kColumns);
+  const int row = cell(image_px.y() / size_px.y(), kRows),
+            column = cell(image_px.x() / size_px.x(), kColumns);
   ++dots[static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)];
 }
 
@@ -113,11 +113,8 @@ std::vector<Coverage> coverage_of(const std::vector<WandMoment>& moments,
     if (!moment.used) continue;
     for (const WandView& view : moment.views) {
       const CameraConfig& camera = cameras[static_cast<std::size_t>(view.camera)];
-      const bool video = camera.source == CameraSource::video;
-      const double width_px = video ? camera.video.width_px : kWiimoteWidth_px;
-      const double height_px = video ? camera.video.height_px : kWiimoteHeight_px;
       for (const Vec2& dot : view.dots_px)
-        coverage[static_cast<std::size_t>(view.camera)].add(dot, width_px, height_px);
+        coverage[static_cast<std::size_t>(view.camera)].add(dot, picture_size_px(camera));
     }
   }
   return coverage;
