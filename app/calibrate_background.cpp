@@ -7,6 +7,7 @@
 
 #include "app/calibrate.h"
 #include "app/common.h"
+#include "core/error.h"
 #include "tracker/joint/static_dots.h"
 
 namespace vindu::app {
@@ -19,12 +20,27 @@ LedBody lamps(const Site& site) {
                    [room_from_wall = site.wall.room_from_wall](Time) { return room_from_wall; });
 }
 
-/// What stood still for a second or more.
-std::vector<Vec2> still_dots(const Capture& capture, std::size_t camera) {
-  StaticDots dots({.masked_after = std::chrono::seconds(1)});
+template <class Take>
+void for_each_dot(const Capture& capture, std::size_t camera, Take take) {
   for (const Observation& seen : capture.observations)
     if (static_cast<std::size_t>(seen.camera) == camera)
-      for (const Dot& dot : seen.dots) dots.watch({dot.x_px, dot.y_px}, seen.arrival);
+      for (const Dot& dot : seen.dots) take(Vec2(dot.x_px, dot.y_px), seen.arrival);
+}
+
+/// What stood still for a second or more. Throws Error where much else was seen: somebody wears a
+/// helmet, and stood still now and then.
+std::vector<Vec2> still_dots(const Capture& capture, std::size_t camera, const std::string& name) {
+  constexpr double kMostMoving = 0.05;
+  StaticDots dots({.masked_after = std::chrono::seconds(1)});
+  for_each_dot(capture, camera, [&](const Vec2& raw_px, Time at) { dots.watch(raw_px, at); });
+  double all = 0, moving = 0;
+  for_each_dot(capture, camera, [&](const Vec2& raw_px, Time) {
+    ++all;
+    moving += !dots.masked(raw_px);
+  });
+  if (moving > kMostMoving * all)
+    throw Error({fmt::format("{:.0f} % of its dots move", 100 * moving / all), name,
+                 "hide the helmet, and let nobody carry a light about"});
   return dots.masks_px();
 }
 
@@ -44,7 +60,7 @@ int learn(const CalibrateOptions& options) {
   for (std::size_t i = 0; i < run.site.cameras.size(); ++i) {
     CameraCalibration camera;
     camera.camera = run.site.cameras[i].name;
-    camera.masks_px = still_dots(run.capture, i);
+    camera.masks_px = still_dots(run.capture, i, camera.camera);
     camera.note.method = "background";
     camera.note.date = date_now();
     camera.note.recording = run.recording;

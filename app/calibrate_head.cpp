@@ -87,6 +87,15 @@ void print(const HeadResult& result, const HeadConfig* truth, bool json) {
   std::fputs(layout_remark(head).c_str(), stdout);
 }
 
+/// No wall file takes an eye that is farther from its helmet.
+void expect_eye_at_the_helmet(const Vec3& eye_in_head) {
+  constexpr double kFarthest_m = 0.5;
+  if (eye_in_head.norm() > kFarthest_m)
+    throw Error({fmt::format("lies {:.2f} m from the helmet", eye_in_head.norm()), "--eye-at",
+                 "give the point between the wearer's eyes while standing still, in wall: x to the "
+                 "right and y up from the wall's middle, z away from it"});
+}
+
 int calibrate_the_head(const HeadCommand& command) {
   const Site site = load_site(command.common.wall_file);
   const HeadConfig& known = head_named(command.name, site);
@@ -111,6 +120,7 @@ int calibrate_the_head(const HeadCommand& command) {
     options.eye_in_room = run.site.wall.room_from_wall * *command.eye_in_wall;
   const HeadResult result =
       calibrate_head(run.capture, run.site.cameras, run.site.wall.room_from_wall, known, options);
+  expect_eye_at_the_helmet(result.head.eye_in_head);
   print(result, run.truth ? &wearer.head : nullptr, command.common.json);
   HeadCalibration found;
   found.head = result.head;

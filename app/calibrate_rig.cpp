@@ -12,6 +12,7 @@
 #include "app/common.h"
 #include "core/error.h"
 #include "tracker/calibration/grid.h"
+#include "tracker/camera_model.h"
 
 namespace vindu::app {
 namespace {
@@ -61,6 +62,17 @@ std::string lens_line(const std::string& name, const LensResult& lens) {
       100 * lens.coverage.share());
 }
 
+/// Throws Error unless the camera tells of so many dots at once.
+void expect_room_for(const Grid& grid, const CameraConfig& camera) {
+  const std::size_t leds = grid.leds_in_rig().size(), most = most_dots(camera);
+  if (leds > most)
+    throw Error({fmt::format("has {} LEDs, and camera {} sees {} at once", leds, camera.name, most),
+                 "--grid",
+                 camera.source == CameraSource::video
+                     ? "raise max_dots of the camera in the wall file, or take a smaller rig"
+                     : "take 2,2; larger rigs are for cameras with source = \"video\""});
+}
+
 std::string lens_json(const std::string& name, const LensResult& lens) {
   const auto& [k1, k2, p1, p2, k3] = lens.intrinsics.distortion;
   return fmt::format(R"({{"name":{},"focal_px":[{},{}],"focal_sigma_px":{},"centre_px":[{},{}],)"
@@ -75,6 +87,7 @@ int intrinsics(const RigCommand& command) {
   const Grid grid = grid_of(command);
   const Site site = load_site(command.common.wall_file);
   const std::size_t camera = command.camera.empty() ? 0 : camera_named(command.camera, site);
+  expect_room_for(grid, site.cameras.at(camera));
   const Calibrating run =
       capture(command.common,
               {.name = "intrinsics",
@@ -119,7 +132,9 @@ Rigid3 room_from_rig(const RigCommand& command, const Site& site) {
 int extrinsics(const RigCommand& command) {
   const Grid grid = grid_of(command);
   const Site site = load_site(command.common.wall_file);
-  Rigid3 rig = room_from_rig(command, site);
+  for (const CameraConfig& camera : site.cameras)
+    if (command.camera.empty() || camera.name == command.camera) expect_room_for(grid, camera);
+  const Rigid3 rig = room_from_rig(command, site);
   const Calibrating run = capture(
       command.common,
       {.name = "extrinsics",
@@ -193,7 +208,7 @@ void add_calibrate_intrinsics(CLI::App& calibrate, Action& chosen) {
   app->footer(
       "\nExamples:\n"
       "  vindu calibrate intrinsics --wall wall.toml --camera left\n"
-      "  vindu calibrate intrinsics --wall wall.toml --grid 4,3 --spacing-mm 60\n");
+      "  vindu calibrate intrinsics --wall wall.toml --camera webcam --grid 4,3 --spacing-mm 60\n");
   app->callback([command, &chosen] { chosen = [command] { return intrinsics(*command); }; });
 }
 

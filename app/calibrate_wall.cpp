@@ -128,8 +128,18 @@ void print_truth(const std::vector<CameraCalibration>& found, const HiddenTruth&
   }
 }
 
+/// How the cameras stand to each other must be known: the points tell where they stand together.
+void expect_placed_cameras(const Site& site) {
+  if (std::ranges::none_of(site.cameras, [](const CameraConfig& camera) {
+        return camera.calibration && camera.calibration->position_sigma_mm > 0;
+      }))
+    throw Error({"no camera's place is calibrated", "wall",
+                 "make a wand calibration first: vindu calibrate wand"});
+}
+
 int calibrate_wall(const WallCommand& command) {
   const Site site = load_site(command.common.wall_file);
+  expect_placed_cameras(site);
   const auto targets = choose_targets(site, command.targets);
   if (targets.size() < 3)
     throw Error({fmt::format("two cameras see {} tile corners together", targets.size()), "wall",

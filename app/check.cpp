@@ -12,6 +12,7 @@
 #include "app/common.h"
 #include "app/site_json.h"
 #include "core/error.h"
+#include "tracker/calibration/layout.h"
 #include "tracker/camera_model.h"
 
 namespace vindu::app {
@@ -62,6 +63,16 @@ void print_wall(const Site& site) {
                shown(head.eye_in_head), shown(head.calibration));
     if (const std::string remark = layout_remark(head); !remark.empty()) fmt::print("  {}", remark);
   }
+  for (std::size_t a = 0; a < site.heads.size(); ++a)
+    for (std::size_t b = a + 1; b < site.heads.size(); ++b) {
+      const HeadConfig &one = site.heads[a], &other = site.heads[b];
+      const double apart_mm = layouts_apart_mm(one.leds_in_head, other.leds_in_head);
+      if (apart_mm < kAmbiguous_mm)
+        fmt::print(
+            "  warning: the LEDs of {} fit those of {} to {:.1f} mm: who is who cannot be "
+            "told. Move one LED by a few centimetres.\n",
+            one.name, other.name, apart_mm);
+    }
 }
 
 /// Drawing units a metre; programs that set small letters badly get large ones.

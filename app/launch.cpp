@@ -121,7 +121,7 @@ void add_handed_on(CLI::App& app, LaunchCommand& command) {
          "Each tile writes into this folder which frames it showed; as of vindu tile")
       ->type_name("DIR");
   hand_on(app, "--scale", command.tile_options, "Of the tiles' pictures, 1: their own pixels")
-      ->check(between(0.001, 4.0));
+      ->check(between(0.01, 1.0));
   hand_on(app, "--device", command.tile_options, "Which EGL device draws without a display")
       ->check(CLI::NonNegativeNumber);
 }

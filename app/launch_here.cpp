@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <memory>
 
@@ -26,7 +27,7 @@ class StatusLine {
     view_.poll(*bus_, std::chrono::steady_clock::now());
     std::string line = summary_of(view_.now());
     if (restarts > 0) line += fmt::format(", {} restarts", restarts);
-    if (line != shown_) fmt::print(stderr, "\r\x1b[K{}", line);
+    if (line != shown_) std::fputs(("\r\x1b[K" + line).c_str(), stderr);
     shown_ = line;
   }
   void clear() {
@@ -42,17 +43,23 @@ class StatusLine {
   std::string shown_;
 };
 
+/// What cannot be written, to a full disk or a reader that has gone, does not end the wall.
+void write_if_possible(std::FILE* to, const std::string& line) {
+  std::fputs(line.c_str(), to);
+  std::fflush(to);
+}
+
 int keep_running(std::vector<ProcessPlan> plans, const Site& site) {
   const WallClaim claim(site.cluster);
+  std::signal(SIGPIPE, SIG_IGN);
   std::unique_ptr<StatusLine> status;  // made after the supervisor: its threads hold no signals
   const auto say = [&](const std::string& name, const std::string& line) {
     if (status) status->clear();
-    fmt::print(stderr, "{}: {}\n", name, line);
+    write_if_possible(stderr, name + ": " + line + "\n");
   };
   const auto result = [&](const std::string& line) {
     if (status) status->clear();
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
+    write_if_possible(stdout, line + "\n");
   };
   Supervisor supervisor(std::move(plans), {result, say, say, [&](int restarts) {
                                              if (status) status->show(restarts);

@@ -167,20 +167,23 @@ std::string toml_of(const CameraConfig& camera) {
       lens.fx_px, lens.cx_px, lens.cy_px);
 }
 
-void print_study(const std::string& title, const Study& study, const PlanOptions& options) {
-  fmt::print("{}: six-dof within {:g} mm in {:.1f} % of the poses; at every heading on {:.1f} m2\n",
+void print_study(std::FILE* to, const std::string& title, const Study& study,
+                 const PlanOptions& options) {
+  fmt::print(to,
+             "{}: six-dof within {:g} mm in {:.1f} % of the poses; at every heading on {:.1f} m2\n",
              title, options.good_mm, 100 * study.covered_share, study.always_covered_m2);
-  fmt::print("  {:<10}{:>9}{:>14}{:>10}{:>12}{:>10}{:>12}\n", "", "share", "eye median", "p95",
+  fmt::print(to, "  {:<10}{:>9}{:>14}{:>10}{:>12}{:>10}{:>12}\n", "", "share", "eye median", "p95",
              "lateral", "depth", "rotation");
   for (int level = 0; level < kLevels; ++level) {
     if (level == static_cast<int>(TrackingLevel::held)) continue;
     const LevelFigures& row = study.levels[level];
-    fmt::print("  {:<10}{:>7.1f} %", name_of(static_cast<TrackingLevel>(level)), 100 * row.share);
+    fmt::print(to, "  {:<10}{:>7.1f} %", name_of(static_cast<TrackingLevel>(level)),
+               100 * row.share);
     if (row.eye_median_m > 0)
-      fmt::print("{:>11.1f} mm{:>7.1f} mm{:>9.1f} mm{:>7.1f} mm{:>8.1f} deg",
+      fmt::print(to, "{:>11.1f} mm{:>7.1f} mm{:>9.1f} mm{:>7.1f} mm{:>8.1f} deg",
                  1e3 * row.eye_median_m, 1e3 * row.eye_p95_m, 1e3 * row.lateral_median_m,
                  1e3 * row.depth_median_m, degrees(row.rotation_median_rad));
-    fmt::print("\n");
+    fmt::print(to, "\n");
   }
 }
 
@@ -252,15 +255,17 @@ int run_plan(const PlanOptions& options) {
     print_json(plan, options, now, proposal);
     return 0;
   }
-  fmt::print("Walking area x {:.2f} to {:.2f}, z {:.2f} to {:.2f} m in room ({:.1f} m2)\n",
+  // Cameras that are proposed are for a wall file; what else is said must not come between.
+  std::FILE* const to = proposal ? stderr : stdout;
+  fmt::print(to, "Walking area x {:.2f} to {:.2f}, z {:.2f} to {:.2f} m in room ({:.1f} m2)\n",
              plan.area.least_in_room.x(), plan.area.largest_in_room.x(),
              plan.area.least_in_room.y(), plan.area.largest_in_room.y(), plan.area.size_m2());
   if (!plan.site.cameras.empty())
-    print_study(fmt::format("{} cameras of the wall file", plan.site.cameras.size()), now, options);
+    print_study(to, fmt::format("{} cameras of the wall file", plan.site.cameras.size()), now,
+                options);
   if (proposal)
-    print_study(fmt::format("{} cameras proposed", options.propose), *proposal, options);
-  fmt::print("{}\n", options.out);
-  if (proposal) fmt::print("\n");
+    print_study(to, fmt::format("{} cameras proposed", options.propose), *proposal, options);
+  fmt::print(to, "{}\n", options.out);
   for (std::size_t i = 0; proposal && i < proposal->cameras.size(); ++i)
     fmt::print("{}", toml_of(proposal->cameras[i]));
   return 0;
@@ -311,7 +316,8 @@ void add_plan(CLI::App& parent, Action& chosen) {
       "\nExamples:\n"
       "  vindu plan\n"
       "  vindu plan wall.toml --area -1.5,1,1.5,3 --height 1.6 --out plan.png\n"
-      "  vindu plan wall.toml --propose 4 >> proposal.toml\n");
+      "  vindu plan wall.toml --propose 4 > proposal.toml      [[camera]] tables for the wall "
+      "file\n");
   app->callback([options, &chosen] { chosen = [options] { return run_plan(*options); }; });
 }
 

@@ -12,6 +12,7 @@
 #include "app/wall_console.h"
 #include "cluster/console.h"
 #include "cluster/dds.h"
+#include "cluster/launch/local_wall.h"
 
 namespace vindu::app {
 namespace {
@@ -174,7 +175,11 @@ void add_stop(CLI::App& parent, Action& chosen) {
     chosen = [command] {
       const Site site = load_site(command->wall_file);
       if (has_hosts(site)) return stop_on_hosts(site, command->engine);
-      return ask(*command, Verb::stop, "");
+      const int asked = ask(*command, Verb::stop, "");
+      if (!wait_until_ended(site.cluster, std::chrono::seconds(10)))
+        throw Error({"has not ended within ten seconds", site.cluster.name,
+                     "end its launcher: pkill -f 'vindu launch'"});
+      return asked;
     };
   });
 }

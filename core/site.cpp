@@ -325,6 +325,8 @@ void read_wiimote(TomlTable& table, CameraConfig& camera) {
     camera.dot_format = *ir_format_from(*name);
 }
 
+constexpr std::size_t kMostCameras = 16;
+
 /// Fields of another source are not known, except that an emulated camera may stand in for any.
 void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
   for (TomlTable& table : root.tables("camera")) {
@@ -346,6 +348,9 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
     camera.room_from_camera = read_camera_pose(table);
     camera.use_calibration = table.boolean("calibration").value_or(true);
     table.finish();
+    if (cameras.size() == kMostCameras)
+      table.fail("name", fmt::format("is that of one camera too many; {} are tracked at most",
+                                     kMostCameras));
     cameras.push_back(std::move(camera));
   }
 }

@@ -24,6 +24,13 @@ Vec2 picture_size_px(const CameraConfig& camera) {
   return {kWiimoteWidth_px, kWiimoteHeight_px};
 }
 
+std::size_t most_dots(const CameraConfig& camera) {
+  constexpr std::size_t kWiimoteDots = 4;
+  return camera.source == CameraSource::video
+             ? static_cast<std::size_t>(camera.video.blobs.max_dots)
+             : kWiimoteDots;
+}
+
 Vec2 image_from_raw(CameraSource source, const Vec2& raw_px) {
   if (source == CameraSource::video) return raw_px;
   return {raw_px.x(), kWiimoteHeight_px - 1 - raw_px.y()};

@@ -22,6 +22,9 @@ constexpr int kWiimoteHeight_px = 768;
 /// Width and height of what a camera's dots lie in.
 Vec2 picture_size_px(const CameraConfig& camera);
 
+/// How many dots one of its reports holds at most.
+std::size_t most_dots(const CameraConfig& camera);
+
 /// Image coordinates (OpenCV) of a raw dot, and the other way round: the map is its own inverse.
 Vec2 image_from_raw(CameraSource source, const Vec2& raw_px);
 

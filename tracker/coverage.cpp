@@ -13,7 +13,6 @@ namespace vindu {
 namespace {
 
 constexpr std::size_t kMostLeds = 16;
-constexpr std::size_t kWiimoteDots = 4;
 
 struct SeenDot {
   double distance_m = 0;
@@ -52,10 +51,7 @@ Sight& Sight::operator+=(const Sight& other) {
 }
 
 Onlooker::Onlooker(const CameraConfig& camera)
-    : model_(camera), size_px_(picture_size_px(camera)), most_dots_(kWiimoteDots) {
-  if (camera.source == CameraSource::video)
-    most_dots_ = static_cast<std::size_t>(camera.video.blobs.max_dots);
-}
+    : model_(camera), size_px_(picture_size_px(camera)), most_dots_(most_dots(camera)) {}
 
 // With the pose disturbed as x_led = eye + d_eye + exp(d_rotation) (x_led - eye), a dot moves by
 // P C (d_eye - [x_led - eye]x d_rotation): P the projection's derivative, C camera_from_room.

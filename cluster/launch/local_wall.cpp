@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <thread>
 
 #include "cluster/launch/node_set.h"
 #include "core/error.h"
@@ -51,6 +52,22 @@ WallClaim::WallClaim(const ClusterConfig& cluster)
   if (bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), size) != 0)
     throw Error({"a wall of this name runs on this machine", cluster.name,
                  "stop it (vindu stop), or give this one another name in its [cluster]"});
+}
+
+bool wait_until_ended(const ClusterConfig& cluster, Duration patience) {
+  const auto runs = [&] {
+    try {
+      const WallClaim claim(cluster);
+      return false;
+    } catch (const Error&) {
+      return true;
+    }
+  };
+  for (const Time limit = std::chrono::steady_clock::now() + patience; runs();) {
+    if (std::chrono::steady_clock::now() > limit) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return true;
 }
 
 }  // namespace vindu

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cluster/launch/supervisor.h"
+#include "core/clock.h"
 #include "core/site.h"
 
 namespace vindu {
@@ -39,5 +40,9 @@ class WallClaim {
  private:
   FileDescriptor socket_;
 };
+
+/// Waits until no launched wall of this name and domain runs on this machine, its processes
+/// included. False: one still does.
+bool wait_until_ended(const ClusterConfig& cluster, Duration patience);
 
 }  // namespace vindu

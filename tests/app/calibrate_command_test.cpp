@@ -72,6 +72,40 @@ TEST_F(CalibrateCommand, OfAHeadWritesItsLedsAndWarnsOfSymmetry) {
   EXPECT_THAT(bytes_of(path("calibration/heads.toml")), HasSubstr("[[calibrated_head]]"));
 }
 
+TEST_F(CalibrateCommand, OfAHeadRefusesAnEyeThatNoHeadHas) {
+  const ProcessResult result =
+      vindu({"calibrate", "head", "--wall", wall_, "--eye-at", "0,1.65,2"});  // in room
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("--eye-at: lies 1.4"));
+  EXPECT_FALSE(std::filesystem::exists(path("calibration/heads.toml")));
+}
+
+TEST_F(CalibrateCommand, OfTheBackgroundMasksLampsAndRefusesAHelmetThatWalksAbout) {
+  const ProcessResult lamps = vindu({"calibrate", "background", "--wall", wall_});
+  EXPECT_EQ(lamps.exit_code, 0) << lamps.err;
+  EXPECT_THAT(lamps.out, HasSubstr("left: 1 masked"));
+  ASSERT_EQ(vindu({"record", path("walk.vrec"), "--wall", wall_, "--seconds", "20"}).exit_code, 0);
+  const ProcessResult walk =
+      vindu({"calibrate", "background", "--wall", wall_, "--from", path("walk.vrec")});
+  EXPECT_EQ(walk.exit_code, 1);
+  EXPECT_THAT(walk.err, AllOf(HasSubstr("of its dots move"), HasSubstr("hide the helmet")));
+}
+
+TEST_F(CalibrateCommand, ByMoreLedsThanACameraSeesIsRefusedAtOnce) {
+  for (const char* kind : {"intrinsics", "extrinsics"}) {
+    const ProcessResult result = vindu({"calibrate", kind, "--wall", wall_, "--grid", "4,3"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("--grid: has 12 LEDs, and camera left sees 4 at once"));
+  }
+}
+
+TEST_F(CalibrateCommand, ByARecordingOfCamerasThatWereOffIsRefused) {
+  const std::string nothing = write("off.txt", "# vindu recording\n");
+  const ProcessResult result = vindu({"calibrate", "wand", "--wall", wall_, "--from", nothing});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("off.txt"), HasSubstr("holds no reports")));
+}
+
 TEST_F(CalibrateCommand, ByARigPrintsOneLineOfJsonAndWritesNothingInADryRun) {
   for (const char* kind : {"intrinsics", "extrinsics"}) {
     const ProcessResult result =

@@ -57,8 +57,8 @@ TEST_F(PlanCommand, TheProposalIsReadyForTheWallFileAndTheSameAgain) {
       vindu({"plan", wall, "--propose", "2", "--json", "--out", path("plan.png")});
   const ProcessResult text = vindu({"plan", wall, "--propose", "2", "--out", path("plan.png")});
   ASSERT_EQ(text.exit_code, 0);
-  const std::string ready =
-      write("ready.toml", wall_text() + text.out.substr(text.out.find("[[camera]]")));
+  EXPECT_THAT(text.err, HasSubstr("2 cameras proposed: six-dof within"));
+  const std::string ready = write("ready.toml", wall_text() + text.out);
   const ProcessResult checked = vindu({"plan", ready, "--json", "--out", path("plan.png")});
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("plan-2"));

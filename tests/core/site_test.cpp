@@ -1,15 +1,20 @@
 // wall.toml: what a good file means.
 #include "core/site.h"
 
+#include <gmock/gmock.h>
+
+#include "core/error.h"
 #include "tests/core/files.h"
 #include "tests/core/matchers.h"
 
 namespace vindu {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::IsNearPoint;
 using testing::IsNearRigid;
 using testing::TextFile;
+using ::testing::ThrowsMessage;
 
 const std::string kGrid =
     "[wall]\ncolumns = 2\nrows = 1\nwidth_m = 2\nheight_m = 1\n"
@@ -160,6 +165,19 @@ TEST(Site, TakesACameraWithOneAngleOnlyAsHorizontal) {
                             "position_m = [0, 1, 4]\nheading_deg = 0\n");
   EXPECT_THAT(site.cameras[0].room_from_camera.rotation * Vec3::UnitZ(),
               IsNearPoint(Vec3(0, 0, -1), 1e-12));
+}
+
+TEST(Site, TakesSixteenCamerasAndRefusesOneMore) {
+  std::string text = kGrid;
+  const auto add = [&](int number) {
+    text += "[[camera]]\nname = \"" + std::to_string(number) +
+            "\"\nsource = \"emulated\"\nposition_m = [0, 2, 5]\nlook_at_m = [0, 1.6, 2]\n";
+  };
+  for (int number = 1; number <= 16; ++number) add(number);
+  EXPECT_EQ(site_of(text).cameras.size(), 16u);
+  add(17);
+  EXPECT_THAT([&] { site_of(text); },
+              ThrowsMessage<Error>(HasSubstr("one camera too many; 16 are tracked at most")));
 }
 
 TEST(Site, IsOfOneMachineUnlessAMasterIsNamed) {

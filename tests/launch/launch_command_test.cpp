@@ -1,5 +1,6 @@
 // vindu launch, status, pattern, show, mode and stop together: a wall of real processes on this
 // machine and its consoles.
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -29,14 +30,20 @@ class LaunchCommand : public AppTest {
     waitpid(launcher_, nullptr, 0);
   }
 
-  void launch() {
+  /// `output`: a file for all that the launcher says.
+  void launch(const char* output = nullptr) {
     std::vector<std::string> words = {VINDU_PROGRAM, "launch",  small_model(), "--wall", wall_,
                                       "--headless",  "--scale", "0.1",         "--mode", "loop"};
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
-    ASSERT_EQ(posix_spawn(&launcher_, words[0].c_str(), nullptr, nullptr, pointers.data(), environ),
-              0);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+      if (output) posix_spawn_file_actions_addopen(&actions, stream, output, O_WRONLY, 0);
+    ASSERT_EQ(
+        posix_spawn(&launcher_, words[0].c_str(), &actions, nullptr, pointers.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
   }
   int launched_exit_code() {
     int status = 0;
@@ -76,6 +83,17 @@ TEST_F(LaunchCommand, LightsAWallThatConsolesSpeakTo) {
   EXPECT_EQ(ask({"stop"}).exit_code, 0);
   EXPECT_EQ(launched_exit_code(), 0);
   EXPECT_EQ(ask({"status"}).exit_code, 1);
+}
+
+TEST_F(LaunchCommand, GoesOnWhereTheDiskForItsLogIsFullAndHasEndedWhenStopReturns) {
+  launch("/dev/full");
+  await_good();
+  EXPECT_EQ(ask({"pattern", "grid"}).exit_code, 0);
+  EXPECT_EQ(ask({"stop"}).exit_code, 0);
+  const ProcessResult again = ask({"launch", small_model(), "--headless", "--scale", "0.1",
+                                   "--mode", "loop", "--seconds", "1"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(launched_exit_code(), 0);
 }
 
 TEST_F(LaunchCommand, SaysWhatItWouldRun) {

@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <memory>
+#include <thread>
+
 #include "core/error.h"
 
 namespace vindu {
@@ -44,6 +47,19 @@ TEST(LocalWall, PutsSeveralTilesIntoAProcess) {
   EXPECT_EQ(plans[1].name, "tile-0-[0-1],tile-[1-2]-0");
   EXPECT_THAT(plans[2].words, ElementsAre("/opt/vindu", "tile", "tile-1-1", "tile-2-1", "--wall",
                                           kRequest.wall_file, "--headless"));
+}
+
+TEST(WallClaim, IsWaitedForUntilItsHolderEnds) {
+  const ClusterConfig cluster{.name = "waited-for"};
+  EXPECT_TRUE(wait_until_ended(cluster, Duration::zero()));
+  auto claim = std::make_unique<WallClaim>(cluster);
+  EXPECT_FALSE(wait_until_ended(cluster, std::chrono::milliseconds(1)));
+  std::thread holder([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    claim.reset();
+  });
+  EXPECT_TRUE(wait_until_ended(cluster, std::chrono::seconds(60)));
+  holder.join();
 }
 
 TEST(WallClaim, IsHeldByOneAndGivenBack) {

@@ -32,6 +32,9 @@ Contents contents_of(const std::string& recording) {
     contents.last = std::max(contents.last, report->arrival);
   }
   contents.devices = reader.info().devices;
+  if (contents.first > contents.last)
+    throw Error(
+        {"holds no reports", recording, "look whether the cameras are on, and record again"});
   return contents;
 }
 

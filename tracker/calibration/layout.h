@@ -20,4 +20,8 @@ constexpr double kAmbiguous_mm = 6;
 /// Of two to sixteen LEDs; fewer than three are ambiguous in any case.
 LayoutAmbiguity layout_ambiguity(const std::vector<Vec3>& leds_in_body);
 
+/// The rms by which the LEDs of the smaller body fit some of the larger's, moved rigidly: nearer
+/// than kAmbiguous_mm, the two cannot be told apart. Zero for fewer than three LEDs.
+double layouts_apart_mm(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
+
 }  // namespace vindu
