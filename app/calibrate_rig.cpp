@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -129,6 +130,22 @@ Rigid3 room_from_rig(const RigCommand& command, const Site& site) {
   return {Quat(Eigen::AngleAxisd(radians(command.rig_heading_deg), Vec3::UnitY())), place};
 }
 
+/// How well the focal length is known: as calibrated, else as Wiimotes differ
+/// (docs/calibration.md).
+double focal_sigma_px(const CameraConfig& camera) {
+  constexpr double kOfWiimotes_px = 50;
+  if (camera.calibration && camera.calibration->focal_sigma_px > 0)
+    return camera.calibration->focal_sigma_px;
+  return camera.source == CameraSource::video ? 0 : kOfWiimotes_px;
+}
+
+/// With what a focal length that is wrong makes of the distance to the rig.
+double place_sigma_mm(const PlaceResult& place, const Rigid3& rig, const CameraConfig& camera) {
+  const double distance_mm = 1e3 * (place.room_from_camera.translation - rig.translation).norm();
+  return std::hypot(place.position_sigma_mm,
+                    distance_mm * focal_sigma_px(camera) / camera.intrinsics.fx_px);
+}
+
 int extrinsics(const RigCommand& command) {
   const Grid grid = grid_of(command);
   const Site site = load_site(command.common.wall_file);
@@ -150,22 +167,22 @@ int extrinsics(const RigCommand& command) {
   for (std::size_t i = 0; i < run.site.cameras.size(); ++i) {
     if (!command.camera.empty() && run.site.cameras[i].name != command.camera) continue;
     const PlaceResult place = calibrate_place(run.capture, run.site.cameras, i, grid, rig);
+    const double sigma_mm = place_sigma_mm(place, rig, run.site.cameras[i]);
     const Vec3& at = place.room_from_camera.translation;
     CameraCalibration of_camera;
     of_camera.camera = run.site.cameras[i].name;
     of_camera.room_from_camera = place.room_from_camera;
     of_camera.note = {
-        "extrinsics", date_now(), run.recording, place.rms_px, 0, place.position_sigma_mm, 0};
+        "extrinsics", date_now(), run.recording, place.rms_px, focal_sigma_px(run.site.cameras[i]),
+        sigma_mm,     0};
     if (command.common.json)
       fmt::print(R"({{"name":{},"position_m":[{},{},{}],"position_sigma_mm":{},"rms_px":{}}})"
                  "\n",
-                 json_text(of_camera.camera), at.x(), at.y(), at.z(), place.position_sigma_mm,
-                 place.rms_px);
+                 json_text(of_camera.camera), at.x(), at.y(), at.z(), sigma_mm, place.rms_px);
     else
       fmt::print(
           "{}: at {:.3f} {:.3f} {:.3f} m in room, to {:.0f} mm; rms {:.2f} px of {} pictures\n",
-          of_camera.camera, at.x(), at.y(), at.z(), place.position_sigma_mm, place.rms_px,
-          place.pictures);
+          of_camera.camera, at.x(), at.y(), at.z(), sigma_mm, place.rms_px, place.pictures);
     if (run.truth && !command.common.json) {
       const Vec3& truth = run.truth->cameras[i].room_from_camera.translation;
       fmt::print("  the truth: {:.3f} {:.3f} {:.3f} m, {:.0f} mm away\n", truth.x(), truth.y(),

@@ -84,7 +84,9 @@ TEST_F(CalibrateCommand, OfTheBackgroundMasksLampsAndRefusesAHelmetThatWalksAbou
   const ProcessResult lamps = vindu({"calibrate", "background", "--wall", wall_});
   EXPECT_EQ(lamps.exit_code, 0) << lamps.err;
   EXPECT_THAT(lamps.out, HasSubstr("left: 1 masked"));
-  ASSERT_EQ(vindu({"record", path("walk.vrec"), "--wall", wall_, "--seconds", "20"}).exit_code, 0);
+  ASSERT_EQ(
+      vindu({"record", "--out", path("walk.vrec"), "--wall", wall_, "--seconds", "8"}).exit_code,
+      0);
   const ProcessResult walk =
       vindu({"calibrate", "background", "--wall", wall_, "--from", path("walk.vrec")});
   EXPECT_EQ(walk.exit_code, 1);

@@ -13,8 +13,10 @@ namespace vindu {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using namespace testing;
 
 const std::vector<Vec3> kTwo = {{-1, 2.3, 5}, {1, 2.3, 5}};
@@ -229,6 +231,26 @@ TEST(Wand, OfAnotherLengthIsRefusedBecauseTheRoomWouldBeOfAnotherSize) {
   WandOptions options;
   EXPECT_THAT(refusal(capture_of(wanted), wanted.site, options),
               AllOf(HasSubstr("wand"), ContainsRegex("0\\.7[12] times as far apart")));
+}
+
+TEST(Wand, SaidToBeATenthLongerIsDoubtedBecauseTheRoomWouldBeOfAnotherSize) {
+  const EmulatedCapture wanted{.site = true_site(kTwo), .body = wand(kThreeLeds)};
+  EXPECT_THAT(calibrate(wanted).remarks, Not(Contains(HasSubstr("as far apart"))));
+  EXPECT_THAT(calibrate(wanted, {.leds_m = {0, 0.165, 0.55}}).remarks,
+              Contains(HasSubstr("stand 1.10 times as far apart as the wall file says")));
+}
+
+TEST(Wand, WavedWhileACameraMovedIsDoubted) {
+  const EmulatedCapture wanted{.site = true_site(kTwo), .body = wand(kThreeLeds)};
+  Capture capture = capture_of(wanted);
+  EXPECT_THAT(calibrate_wand(capture, wanted.site.cameras, {}).remarks,
+              Not(Contains(HasSubstr("scatters"))));
+  const Time half = capture.observations[capture.observations.size() / 2].arrival;
+  for (Observation& seen : capture.observations)
+    for (Dot& dot : seen.dots)
+      if (seen.camera == 1 && seen.arrival > half) dot.x_px = std::min(dot.x_px + 40, 1023.0);
+  EXPECT_THAT(calibrate_wand(capture, wanted.site.cameras, {}).remarks,
+              Contains(HasSubstr("if a camera moved meanwhile")));
 }
 
 TEST(Wand, WavedInOneCornerIsRefused) {

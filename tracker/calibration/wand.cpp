@@ -211,10 +211,12 @@ WandResult calibrate_wand(const Capture& capture, const std::vector<CameraConfig
                  "wand", "take other lights and shiny things away; keep the cameras still"});
   refuse_too_little(moments, coverage_of(moments, cameras), names);
   const MeasuredWand measured = measure_wand(moments, world);
-  if (options.trust_wall_file) refuse_other_size(world, cameras);
+  const double ratio = options.trust_wall_file ? size_ratio(world, cameras) : 1;
+  refuse_other_size(ratio);
   fill_cameras(moments, cameras, world, result);
   fill_lengths(measured, options.leds_m.back(), result);
   refuse_weak(result);
+  for (std::string& doubt : doubts_of(result, ratio)) result.remarks.push_back(std::move(doubt));
   result.poses = static_cast<int>(std::ranges::count_if(
       moments, [](const WandMoment& moment) { return moment.used && !moment.held_out; }));
   const Rigid3 to_room = room_from_world(capture, cameras, world, result);

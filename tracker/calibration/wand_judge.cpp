@@ -179,7 +179,7 @@ void refuse_other_wand(const MeasuredWand& measured, const std::vector<double>& 
                "wand", "measure its LEDs again and give their places along it"});
 }
 
-void refuse_other_size(const WandWorld& world, const std::vector<CameraConfig>& cameras) {
+double size_ratio(const WandWorld& world, const std::vector<CameraConfig>& cameras) {
   double found_m = 0, said_m = 0;
   for (std::size_t a = 0; a < cameras.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
@@ -189,14 +189,34 @@ void refuse_other_size(const WandWorld& world, const std::vector<CameraConfig>& 
       said_m += (cameras[a].room_from_camera.translation - cameras[b].room_from_camera.translation)
                     .norm();
     }
-  const double ratio = found_m / said_m;
-  if (!(said_m > 0.1) || (ratio > 0.8 && ratio < 1.25)) return;
+  return said_m > 0.1 ? found_m / said_m : 1;
+}
+
+void refuse_other_size(double ratio) {
+  if (ratio > 0.8 && ratio < 1.25) return;
   throw Error(
       {fmt::format("makes the cameras stand {:.2f} times as far apart as the wall file says",
                    ratio),
        "wand",
        "measure the wand and the cameras' position_m again, or say --ignore-places where "
        "those are guesses"});
+}
+
+std::vector<std::string> doubts_of(const WandResult& result, double size_ratio) {
+  constexpr double kUsualSize = 0.05, kUsualScatter = 1.4;
+  std::vector<std::string> doubts;
+  if (std::abs(size_ratio - 1) > kUsualSize)
+    doubts.push_back(fmt::format(
+        "warning: the cameras stand {:.2f} times as far apart as the wall file says; if "
+        "its position_m are good, measure the wand again",
+        size_ratio));
+  if (const double scatter = result.length_rms_mm / result.predicted_length_rms_mm;
+      scatter > kUsualScatter)
+    doubts.push_back(
+        fmt::format("warning: the wand's length scatters by {:.1f} times what its dots' noise "
+                    "makes; if a camera moved meanwhile, or the wand bends, wave again",
+                    scatter));
+  return doubts;
 }
 
 }  // namespace vindu

@@ -32,7 +32,11 @@ void refuse_too_little(const std::vector<WandMoment>& moments,
                        const std::vector<std::string>& names);
 /// Throws Error for a wand of other proportions than said.
 void refuse_other_wand(const MeasuredWand& measured, const std::vector<double>& leds_m);
-/// Throws Error for cameras that stand nearer or farther apart than the wall file says.
-void refuse_other_size(const WandWorld& world, const std::vector<CameraConfig>& cameras);
+/// How far apart the cameras stand, over what the wall file says; 1 where that says nothing.
+double size_ratio(const WandWorld& world, const std::vector<CameraConfig>& cameras);
+/// Throws Error for cameras that stand much nearer or farther apart than the wall file says.
+void refuse_other_size(double size_ratio);
+/// What may be wrong with a result that is not refused, for people.
+std::vector<std::string> doubts_of(const WandResult& result, double size_ratio);
 
 }  // namespace vindu
