@@ -74,7 +74,8 @@ DdsEntity open_domain(const DdsSettings& settings) {
                  .remedy = "see its messages above; unset it for Vindu's own settings"});
   throw Error({.what = "the network cannot be joined",
                .where = "interface " + settings.interface,
-               .remedy = "there are: " + interfaces()});
+               .remedy = "there are: " + interfaces() +
+                         "; where its ports are in use (above), give [cluster] another domain"});
 }
 
 /// Throws Error where a key's permissions forbid it.
