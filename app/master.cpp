@@ -167,6 +167,7 @@ class MasterRun {
       if (const auto found = stages_.find(staged_scene_); found != stages_.end())
         stage_ = found->second;
       glide_.reset();
+      answer_show();
     }
     glide(now);
     const Time photon = now + figures_.to_light() + display_latency();
@@ -243,12 +244,32 @@ class MasterRun {
       const std::uint64_t revision =
           wall_.show(path_for_tiles(model, site_), staged.sha256, place.value_or(Placement::fit));
       stages_[revision] = staged.stage;
-      reply(asked_scene_, true, "");
+      reply(coming_scene_.asked, false,
+            "another scene was asked for before all tiles had this one");
+      coming_scene_ = {asked_scene_, revision};
     } catch (const Error& error) {
       if (asked_scene_.request == 0) throw;
       reply(asked_scene_, false, error.what());
     }
     asked_scene_ = {};
+  }
+
+  /// Who asked for the scene that is shown now is told which tiles cannot.
+  void answer_show() {
+    if (coming_scene_.revision != staged_scene_) return;
+    std::vector<std::string> failures;
+    std::size_t shows = 0;
+    for (const auto& [tile, report] : wall_.tiles()) {
+      if (!report.present || !report.status) continue;
+      const bool failed = report.status->state == TileState::failed;
+      shows += !failed;
+      if (failed) failures.push_back(fmt::format("{}: {}", tile, report.status->error));
+    }
+    reply(coming_scene_.asked, failures.empty(),
+          failures.empty() ? ""
+                           : fmt::format("{} of {} tiles show it; {}", shows,
+                                         shows + failures.size(), fmt::join(failures, "; ")));
+    coming_scene_ = {};
   }
 
   void reply(const CommandMessage& command, bool done, const std::string& text) {
@@ -357,7 +378,11 @@ class MasterRun {
   std::unique_ptr<EyeSource> path_, tracked_;  // cameras are opened once, by the mode track
   EyeSource* eyes_ = nullptr;
   Staging staging_;
-  CommandMessage asked_scene_;  // answered when it could be read; request 0: the first one
+  CommandMessage asked_scene_;  // that is being read; request 0: the first one
+  struct ComingScene {          // that tiles load
+    CommandMessage asked{};     // answered when they show it
+    std::uint64_t revision = 0;
+  } coming_scene_;
   std::map<std::uint64_t, Stage> stages_;  // by scene
   std::uint64_t staged_scene_ = 0;
   Stage stage_;  // of the scene that is shown

@@ -47,7 +47,7 @@ void add_common(CLI::App& app, ControlCommand& command) {
 
 void add_show(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<ControlCommand>();
-  command->timeout_s = 60;  // the master reads it first
+  command->timeout_s = 120;  // the master reads it first, then the tiles
   CLI::App* app = parent.add_subcommand("show", "Shows another model on a running wall");
   app->add_option("MODEL", command->argument,
                   "Any model that Assimp reads, at this path on all hosts")

@@ -150,6 +150,26 @@ TEST_F(AskedWall, ShowsAnotherModelAndKeepsItWhereTheNextOneCannotBeRead) {
   expect_right({"tile-0-0.csv", "tile-1-1.csv"});
 }
 
+// Two tiles on one machine whose files differ: to the second, another one stands in the place.
+TEST_F(AskedWall, TellsWhoAsksForAModelWhichTilesCannotShowIt) {
+  if (std::system("unshare -rm true 2>/dev/null") != 0) GTEST_SKIP() << "no namespaces here";
+  const std::string model = path("new.obj"), other = write("old.obj", "v 1 2 3\n");
+  std::filesystem::copy_file(small_model(), model);
+  Child good = start_tile("tile-0-0");
+  Child bad(
+      {"/usr/bin/unshare", "-rm", "sh", "-c", R"(mount --bind "$0" "$1" && shift && exec "$@")",
+       other, model, VINDU_PROGRAM, "tile", "tile-1-1", "--headless", "--scale", "0.1", "--wall",
+       wall_file_, "--shown", path("tile-1-1.csv")},
+      path("tile-1-1.log"));
+  Child master = start_master();
+  await_swaps("tile-0-0.csv", 20);
+  await_swaps("tile-1-1.csv", 20);
+  const ProcessResult shown = vindu({"show", model, "--wall", wall_file_});
+  EXPECT_EQ(shown.exit_code, 1);
+  EXPECT_THAT(shown.err, HasSubstr("1 of 2 tiles show it; tile-1-1: " + model));
+  EXPECT_EQ(vindu({"show", small_model(), "--wall", wall_file_}).exit_code, 0);
+}
+
 TEST_F(AskedWall, FollowsAHandThatATouchFrameReports) {
   const std::string port = std::to_string(20000 + getpid() % 20000);
   Child tile = start_tile("tile-0-0");
