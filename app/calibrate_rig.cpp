@@ -151,7 +151,7 @@ int extrinsics(const RigCommand& command) {
   const Site site = load_site(command.common.wall_file);
   for (const CameraConfig& camera : site.cameras)
     if (command.camera.empty() || camera.name == command.camera) expect_room_for(grid, camera);
-  const Rigid3 rig = room_from_rig(command, site);
+  Rigid3 rig = room_from_rig(command, site);
   const Calibrating run = capture(
       command.common,
       {.name = "extrinsics",

@@ -35,7 +35,7 @@ TEST(Layout, OfOneHeadIsFoundInAnothersWhereverItIsHeldAndHoweverItsLedsAreNumbe
   const std::vector<Vec3> three = {{-0.10, 0, -0.05}, {0, 0, 0}, {0.10, 0, -0.15}};
   std::vector<Vec3> four = {{0, 0.08, 0.02}};
   const Quat turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
-  for (const Vec3& led : three) four.push_back(turned * led + Vec3(0.3, 0, -0.1));
+  for (const Vec3& led : three) four.emplace_back(turned * led + Vec3(0.3, 0, -0.1));
   EXPECT_LT(layouts_apart_mm(three, four), 1e-6);
   EXPECT_LT(layouts_apart_mm(four, three), 1e-6);
   four.back() += turned * Vec3(0.05, 0, 0);
