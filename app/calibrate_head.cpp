@@ -87,7 +87,7 @@ void print(const HeadResult& result, const HeadConfig* truth, bool json) {
   std::fputs(layout_remark(head).c_str(), stdout);
 }
 
-/// No wall file takes an eye that is farther from its helmet.
+/// Throws Error for an eye where no head has one: wall files take none that is over a metre away.
 void expect_eye_at_the_helmet(const Vec3& eye_in_head) {
   constexpr double kFarthest_m = 0.5;
   if (eye_in_head.norm() > kFarthest_m)

@@ -13,6 +13,7 @@
 #include "app/common.h"
 #include "core/error.h"
 #include "tracker/calibration/grid.h"
+#include "tracker/calibration/lens.h"
 #include "tracker/camera_model.h"
 
 namespace vindu::app {
@@ -130,13 +131,11 @@ Rigid3 room_from_rig(const RigCommand& command, const Site& site) {
   return {Quat(Eigen::AngleAxisd(radians(command.rig_heading_deg), Vec3::UnitY())), place};
 }
 
-/// How well the focal length is known: as calibrated, else as Wiimotes differ
-/// (docs/calibration.md).
+/// How well the focal length is known: as calibrated, else as cameras of its kind differ.
 double focal_sigma_px(const CameraConfig& camera) {
-  constexpr double kOfWiimotes_px = 50;
   if (camera.calibration && camera.calibration->focal_sigma_px > 0)
     return camera.calibration->focal_sigma_px;
-  return camera.source == CameraSource::video ? 0 : kOfWiimotes_px;
+  return lens_prior(camera).sigma[0];
 }
 
 /// With what a focal length that is wrong makes of the distance to the rig.

@@ -101,6 +101,17 @@ TEST_F(CalibrateCommand, ByMoreLedsThanACameraSeesIsRefusedAtOnce) {
   }
 }
 
+TEST_F(CalibrateCommand, OfAPlaceIsNoSurerThanTheFocalLength) {
+  const auto sigma_mm = [&] {
+    const std::string out =
+        vindu({"calibrate", "extrinsics", "--wall", wall_, "--camera", "left", "--json"}).out;
+    return std::stod(out.substr(out.find("\"position_sigma_mm\":") + 20));
+  };
+  EXPECT_GT(sigma_mm(), 120);  // 50 of 1335 px, at 3.5 m
+  ASSERT_EQ(vindu({"calibrate", "wand", "--wall", wall_}).exit_code, 0);
+  EXPECT_LT(sigma_mm(), 60);
+}
+
 TEST_F(CalibrateCommand, ByARecordingOfCamerasThatWereOffIsRefused) {
   const std::string nothing = write("off.txt", "# vindu recording\n");
   const ProcessResult result = vindu({"calibrate", "wand", "--wall", wall_, "--from", nothing});

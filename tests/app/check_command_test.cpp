@@ -90,6 +90,22 @@ centre_px = [320, 240]
   EXPECT_NEAR(std::abs(lines[0][2]), 200 * 4.5 * 320 / 600, 0.01);
 }
 
+TEST_F(CheckCommand, WarnsOfTwoHelmetsThatCannotBeTold) {
+  const std::string wall =
+      "[wall]\ncolumns = 1\nrows = 1\nwidth_m = 1\nheight_m = 1\n"
+      "tile_width_px = 100\ntile_height_px = 100\n";
+  const std::string anna =
+      "[[head]]\nname = \"anna\"\nleds_m = [[-0.10, 0, -0.05], [0, 0, 0], [0.10, 0, -0.15]]\n";
+  const std::string carl =
+      "[[head]]\nname = \"carl\"\nleds_m = [[0.10, 0, -0.15], [-0.10, 0, -0.05], [0, 0, 0]]\n";
+  const std::string dora =
+      "[[head]]\nname = \"dora\"\nleds_m = [[-0.14, 0, -0.05], [0, 0, 0], [0.10, 0.06, -0.15]]\n";
+  EXPECT_THAT(vindu({"check", write("equal.toml", wall + anna + carl)}).out,
+              HasSubstr("the LEDs of anna fit those of carl to 0.0 mm"));
+  EXPECT_THAT(vindu({"check", write("unlike.toml", wall + anna + dora)}).out,
+              ::testing::Not(HasSubstr("fit those of")));
+}
+
 TEST_F(CheckCommand, FailsWhereTheDrawingCannotBeWritten) {
   const ProcessResult result = vindu({"check", "--draw", path("nowhere/wall.svg")});
   EXPECT_EQ(result.exit_code, 1);
