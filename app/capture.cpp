@@ -13,6 +13,7 @@
 #include "app/captures.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/runtime_folder.h"
 #include "app/wall_console.h"
 #include "cluster/console.h"
 #include "cluster/dds.h"
@@ -40,7 +41,7 @@ using Pictures = std::map<std::string, Image>;  // by tile
 CapturedFrame ask_for_frame(const CaptureCommand& command, const Site& site) {
   DdsTransport transport(network_of(site, Role::console));
   const AnswerMessage answer =
-      ask_wall(transport, this_console(), {Verb::capture, ""}, from_seconds(command.timeout_s));
+      ask_wall(transport, this_console(site), {Verb::capture, ""}, from_seconds(command.timeout_s));
   expect_done(answer);
   const auto frame = captured_frame_from(answer.text);
   if (!frame)
@@ -66,7 +67,7 @@ bool is_elsewhere(const Tile& tile, const ClusterConfig& cluster) {
 
 /// What this machine's tiles have kept until then, or before the others have to be waited for.
 Pictures collect(const CaptureCommand& command, const Site& site, const CapturedFrame& frame) {
-  const std::string folder = capture_folder(site.cluster);
+  const std::string folder = runtime_folder(site.cluster);
   const Time end = std::chrono::steady_clock::now() + from_seconds(command.timeout_s);
   Pictures pictures;
   const auto has_come = [&](const std::string& tile) {
@@ -101,7 +102,7 @@ void fetch(const CaptureCommand& command, const Site& site, const CapturedFrame&
   const int patience_s = static_cast<int>(std::ceil(command.timeout_s));
   const std::vector<HostReport> found = on_hosts(
       names_of(plans),
-      kept_script(plans, capture_folder_name(site.cluster), capture_prefix(frame), patience_s));
+      kept_script(plans, runtime_folder_name(site.cluster), capture_prefix(frame), patience_s));
   std::vector<HostPaths> wanted;
   for (const HostReport& report : found)
     if (!report.failure && !report.lines.empty()) wanted.push_back({report.host, report.lines});

@@ -1,15 +1,12 @@
 #include "app/captures.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
-#include "core/error.h"
+#include "app/runtime_folder.h"
 #include "core/log.h"
 
 namespace vindu::app {
@@ -18,23 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kKept = 4;  // pictures of a tile
-
-/// systemd's, which is the user's own.
-std::string runtime_folder() {
-  const char* const folder = std::getenv("XDG_RUNTIME_DIR");
-  return folder ? folder : "";
-}
-
-/// Makes it for this user alone. One that is there already must be so: others may have made it.
-void make_private(const std::string& folder) {
-  mkdir(folder.c_str(), 0700);
-  struct stat state {};
-  const bool own = lstat(folder.c_str(), &state) == 0 && S_ISDIR(state.st_mode) &&
-                   state.st_uid == geteuid() && (state.st_mode & 022) == 0;
-  if (!own)
-    throw Error({"is no folder that you alone may write to", folder,
-                 "remove it, or set XDG_RUNTIME_DIR to one of yours"});
-}
 
 /// By name a tile's pictures are in order of time.
 void forget_old(const std::string& folder, const std::string& tile) {
@@ -72,18 +52,6 @@ std::optional<CapturedFrame> captured_frame_from(const std::string& text) {
   return frame;
 }
 
-std::string capture_folder(const ClusterConfig& cluster) {
-  std::string user = runtime_folder();
-  if (user.empty()) make_private(user = fmt::format("/tmp/vindu-{}", geteuid()));
-  std::string folder = user + "/" + capture_folder_name(cluster);
-  make_private(folder);
-  return folder;
-}
-
-std::string capture_folder_name(const ClusterConfig& cluster) {
-  return fmt::format("vindu-{}-{}", cluster.domain, cluster.name);
-}
-
 std::string capture_prefix(const CapturedFrame& frame) {
   return fmt::format("{:020}-{:012}-", frame.epoch, frame.number);
 }
@@ -99,7 +67,7 @@ void CaptureWriter::keep(const ClusterConfig& cluster, const CapturedFrame& fram
   });
   writing_.push_back(std::async(std::launch::async, [=, picture = std::move(picture)] {
     try {
-      write(capture_folder(cluster), capture_file(frame, tile), tile, picture);
+      write(runtime_folder(cluster), capture_file(frame, tile), tile, picture);
     } catch (const std::exception& error) {
       log_warning(tile, std::string("keeps no picture: ") + error.what());
     }

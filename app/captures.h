@@ -25,13 +25,6 @@ struct CapturedFrame {
 std::string text_of(const CapturedFrame& frame);
 std::optional<CapturedFrame> captured_frame_from(const std::string& text);
 
-/// Where the tiles of a wall put pictures on this machine, for this user alone; made where it is
-/// not yet. Nothing of its path comes over the network. Throws Error where it is somebody else's.
-std::string capture_folder(const ClusterConfig& cluster);
-
-/// Of that folder, in the user's runtime folder.
-std::string capture_folder_name(const ClusterConfig& cluster);
-
 /// What the names of all pictures of a frame begin with, and a tile's whole name.
 std::string capture_prefix(const CapturedFrame& frame);
 std::string capture_file(const CapturedFrame& frame, const std::string& tile);

@@ -138,7 +138,7 @@ Finding listen(const Site& site) {
   constexpr auto kListen = std::chrono::milliseconds(1500);
   try {
     DdsTransport transport(network_of(site, Role::console));
-    const Participant self = this_console();
+    const Participant self = this_console(site);
     const auto bus = transport.join({self, {}, WallView::hears()});
     WallView view(tile_names(site.wall), self);
     const MonotonicClock clock;

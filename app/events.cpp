@@ -44,7 +44,7 @@ int events(const EventsCommand& command) {
   const Site site = load_site(command.wall_file);
   const StopSignals signals;
   DdsTransport transport(network_of(site, Role::console));
-  const auto bus = transport.join({this_console(), {}, {Topic::event}});
+  const auto bus = transport.join({this_console(site), {}, {Topic::event}});
   const MonotonicClock clock;
   const Time start = clock.now();
   while (!signals.came_within(Duration::zero()) &&

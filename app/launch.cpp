@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -36,11 +37,17 @@ bool has_display() {
   return (x && *x) || (wayland && *wayland);
 }
 
+/// A name that no other launch has.
+std::string new_session() {
+  return fmt::format("{:x}", std::chrono::system_clock::now().time_since_epoch().count());
+}
+
 std::vector<std::string> master_arguments(const LaunchCommand& command) {
   std::vector<std::string> arguments = command.master_options;
   for (const std::string& target : command.targets)
     arguments.insert(arguments.end(), {"--target", target});
   if (command.json) arguments.emplace_back("--json");
+  arguments.insert(arguments.end(), {"--session", new_session()});
   return arguments;
 }
 

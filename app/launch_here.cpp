@@ -18,7 +18,7 @@ namespace {
 class StatusLine {
  public:
   explicit StatusLine(const Site& site)
-      : self_(this_console()),
+      : self_(this_console(site)),
         transport_(network_of(site, Role::console)),
         bus_(transport_.join({self_, {}, WallView::hears()})),
         view_(tile_names(site.wall), self_) {}

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/asked_file.h"
 #include "app/captures.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/emulation.h"
 #include "app/eye_source.h"
 #include "app/remote_eye.h"
+#include "app/service.h"
 #include "app/stage.h"
 #include "app/still_eye.h"
 #include "app/stop_signals.h"
@@ -30,22 +32,26 @@ namespace vindu::app {
 namespace {
 
 struct MasterCommand {
-  std::string model;
+  Asked asked;
   std::string wall_file;
   std::string path_file;
-  std::string clip;
-  std::string mode = "track";
-  std::optional<Placement> place;
   std::optional<double> seconds;
   std::uint64_t seed = 52;
   EmulationOptions emulation;
   bool tracker_elsewhere = false;
   std::string csv_file;
   std::vector<std::string> targets;
-  Pattern pattern = Pattern::none;
-  bool overlay = false;
+  std::string session;
   bool json = false;
 };
+
+/// So long a master that has just come listens whether there is another one, before its first
+/// frame.
+constexpr Duration kListen = std::chrono::milliseconds(200);
+/// One that finds an older one within this time gives way.
+constexpr Duration kYoung = std::chrono::seconds(10);
+/// After this time of its life what it goes on with is not what the one before died of.
+constexpr Duration kSettled = std::chrono::seconds(10);
 
 /// Larger than that of any master before, as long as the host's clock goes forward.
 std::uint64_t new_epoch() {
@@ -59,47 +65,52 @@ class MasterRun {
       : site_(site),
         room_(site, clock_, walking_room(command.emulation, command.seed, clock_.now())),
         transport_(network_of(site, Role::master)),
-        bus_(transport_.join({{.role = Role::master,
-                               .name = "master",
-                               .host = host_name(),
-                               .version = VINDU_VERSION},
-                              kTells,
-                              kJoins})),
+        bus_(transport_.join({self_, kTells, kJoins})),
         wall_(*bus_, {.epoch = epoch_,
-                      .host = host_name(),
+                      .self = self_,
                       .tiles = tile_names(site.wall),
                       .barrier = {.lock = site.cluster.lock}}),
         eye_in_wall_(site.viewer.default_eye_in_wall),
         gestures_(site, targets_from(command.targets)),
+        path_file_(command.path_file),
         elsewhere_(command.tracker_elsewhere),
-        overlays_(command.overlay ? std::uint32_t{kStatistics} : 0),
-        pattern_(command.pattern),
+        asked_(command.asked),
+        launched_(command.asked),
+        kept_(site.cluster, command.session),
         figures_(tile_names(site.wall), display_latency(), command.csv_file) {
-    set_mode(command.mode, command.path_file);
-    staging_.start({command.model, command.clip, command.place}, site);
+    if (const auto before = kept_.take()) {
+      asked_ = *before;
+      log_info("master", "goes on with what was asked for before it ended");
+    }
+    set_mode(asked_.mode);
+    staging_.start({asked_.model, asked_.clip, asked_.place}, site);
   }
 
-  /// Throws Error when the first scene cannot be read.
+  /// Throws Error when the first scene cannot be read, or another master was there first.
   const WallFigures& run(const StopSignals& signals, std::optional<double> seconds_long) {
     const Time start = clock_.now();
     Time tick = start;
     while (!stopped_ && !signals.came_within(Duration::zero())) {
       const Time now = clock_.now();
+      sign_of_life_.give(now);
       if (seconds_long && seconds(now - start) > *seconds_long) break;
       wall_.poll(now);
+      expect_no_other(now - start);
       note_events();
       follow_scenes();
       for (const CommandMessage& command : desk_.take()) answer(command);
       answer_captures();
-      if (wall_.open() && now >= tick) {
+      if (wall_.open() && now >= std::max(tick, start + kListen)) {
         on_tick(now);
         const auto passed = static_cast<std::int64_t>(seconds(now - start) * site_.rate_hz + 1e-6);
         tick = start + from_seconds(static_cast<double>(passed + 1) / site_.rate_hz);
       }
-      Time wake = wall_.open() ? tick : wall_.wake_time();
+      Time wake = wall_.open() ? std::max(tick, start + kListen) : wall_.wake_time();
       if (staging_.running()) wake = std::min(wake, now + std::chrono::milliseconds(5));
       bus_->wait(kHears, wake);
+      if (asked_ != launched_ && !remembered_ && now - start > kSettled) remember();
     }
+    kept_.remove();
     figures_.length = clock_.now() - start;
     if (stopped_) answer_stragglers();
     figures_.tiles = wall_.tiles();
@@ -124,7 +135,21 @@ class MasterRun {
     }
   }
 
-  void set_mode(const std::string& mode, const std::string& path_file) {
+  void expect_no_other(Duration age) const {
+    const auto other = wall_.other_master();
+    if (!other || other->epoch == 0 || other->epoch > epoch_ || age > kYoung) return;
+    throw Error({"another master of the wall \"" + site_.cluster.name + "\" runs on " + other->host,
+                 "master",
+                 "end that one (vindu stop), or give this wall another name in its [cluster]"});
+  }
+
+  /// Kept as it was asked for last.
+  void remember() {
+    kept_.keep(asked_);
+    remembered_ = true;
+  }
+
+  void set_mode(const std::string& mode) {
     if (mode == "touch") {
       touch_.start_from(eye_in_wall_);
       eyes_ = &touch_;
@@ -134,7 +159,7 @@ class MasterRun {
       throw Error({"there is no mode \"" + mode + "\"", "mode", "choose track, touch or loop"});
     if (mode == "loop") {
       path_ = follow_path(
-          read_camera_path(path_file.empty() ? find_asset("paths/sweep.toml") : path_file));
+          read_camera_path(path_file_.empty() ? find_asset("paths/sweep.toml") : path_file_));
       eyes_ = path_.get();
       return;
     }
@@ -167,7 +192,10 @@ class MasterRun {
       if (const auto found = stages_.find(staged_scene_); found != stages_.end())
         stage_ = found->second;
       glide_.reset();
-      answer_show();
+      note_shown();
+      if (asked_.middle_in_scene)
+        stage_.navigation.wall_from_scene.translation =
+            stage_.translation_to(*asked_.middle_in_scene);
     }
     glide(now);
     const Time photon = now + figures_.to_light() + display_latency();
@@ -181,9 +209,10 @@ class MasterRun {
         .animation_time_s = stage_.plays() ? seconds(now - stage_.clip_start) : 0,
         .clip = stage_.clip,
         .mode = eye.mode,
-        .overlays = overlays_ | (captures_.empty() ? 0 : std::uint32_t{kKeepPicture}),
-        .pattern = pattern_,
-        .blank = blank_};
+        .overlays = (asked_.overlay ? std::uint32_t{kStatistics} : 0) |
+                    (captures_.empty() ? 0 : std::uint32_t{kKeepPicture}),
+        .pattern = asked_.pattern,
+        .blank = asked_.blank};
     if (wall_.due(state, now))
       begin(state, eye, now);
     else
@@ -246,17 +275,43 @@ class MasterRun {
       stages_[revision] = staged.stage;
       reply(coming_scene_.asked, false,
             "another scene was asked for before all tiles had this one");
-      coming_scene_ = {asked_scene_, revision};
+      coming_scene_ = {asked_scene_, revision, staging_.wish()};
     } catch (const Error& error) {
-      if (asked_scene_.request == 0) throw;
-      reply(asked_scene_, false, error.what());
+      if (asked_scene_.request != 0)
+        reply(asked_scene_, false, error.what());
+      else
+        begin_as_launched(error);
     }
     asked_scene_ = {};
   }
 
-  /// Who asked for the scene that is shown now is told which tiles cannot.
-  void answer_show() {
+  /// What the master before showed may not be there any more. Throws the error where this is what
+  /// it was launched with.
+  void begin_as_launched(const Error& error) {
+    if (asked_ == launched_) throw error;
+    log_warning("master", fmt::format("{}; it begins as it was launched", error.what()));
+    asked_ = launched_;
+    set_mode(asked_.mode);
+    staging_.start({asked_.model, asked_.clip, asked_.place}, site_);
+  }
+
+  /// The scene that was asked for is the one that is shown now.
+  void note_shown() {
     if (coming_scene_.revision != staged_scene_) return;
+    if (coming_scene_.asked.request != 0) {
+      const auto& [model, clip, place] = coming_scene_.wish;
+      asked_.model = model;
+      asked_.clip = clip;
+      asked_.place = place;
+      asked_.middle_in_scene.reset();
+      remember();
+    }
+    answer_show();
+    coming_scene_ = {};
+  }
+
+  /// Who asked for it is told which tiles cannot.
+  void answer_show() {
     std::vector<std::string> failures;
     std::size_t shows = 0;
     for (const auto& [tile, report] : wall_.tiles()) {
@@ -269,12 +324,10 @@ class MasterRun {
           failures.empty() ? ""
                            : fmt::format("{} of {} tiles show it; {}", shows,
                                          shows + failures.size(), fmt::join(failures, "; ")));
-    coming_scene_ = {};
   }
 
   void reply(const CommandMessage& command, bool done, const std::string& text) {
-    if (command.request == 0) return;
-    desk_.answer(command, done, text);
+    if (command.request != 0) desk_.answer(command, done, text);
   }
 
   void answer(const CommandMessage& command) {
@@ -296,10 +349,8 @@ class MasterRun {
         play(command.argument);
         break;
       case Verb::mode:
-        set_mode(command.argument, "");
-        break;
-      case Verb::pattern:
-        set_pattern(command.argument);
+        set_mode(command.argument);
+        asked_.mode = command.argument;
         break;
       case Verb::stop:
         stopped_ = true;
@@ -307,15 +358,15 @@ class MasterRun {
       case Verb::go_to:
         go_to(command.argument);
         break;
-      case Verb::overlay:
-        set_overlay(kStatistics, command.argument == "on");
-        break;
       case Verb::capture:
         return captures_.push_back(command);
+      case Verb::pattern:
+      case Verb::overlay:
       case Verb::blank:
-        set_blank(command.argument);
+        note(command, asked_);
         break;
     }
+    remember();
     reply(command, true, "");
   }
 
@@ -324,53 +375,34 @@ class MasterRun {
     if (stage_.model.empty()) throw Error({"shows no model yet", "the wall", "ask again"});
     stage_.clip = find_clip(stage_.clips, clip, stage_.model);
     stage_.clip_start = clock_.now();
+    asked_.clip = clip;
   }
 
   /// "x,y,z" of the scene, to the middle of the wall, within a second.
   void go_to(const std::string& argument) {
     const auto point = vec3_from(argument);
     if (!point) throw Error({"\"" + argument + "\" is no point", "goto", "write x,y,z"});
-    glide_ = {stage_.navigation.wall_from_scene.translation,
-              -(stage_.navigation.wall_from_scene.rotation * (stage_.navigation.scale * *point)),
-              clock_.now()};
+    glide_.emplace(stage_.navigation.wall_from_scene.translation, stage_.translation_to(*point),
+                   clock_.now());
+    asked_.middle_in_scene = point;
   }
 
   void glide(Time now) {
     if (!glide_) return;
-    const double share = std::clamp(seconds(now - glide_->start), 0.0, 1.0);
-    const double eased = share * share * (3 - 2 * share);
-    stage_.navigation.wall_from_scene.translation =
-        glide_->from + eased * (glide_->to - glide_->from);
-    if (share >= 1) glide_.reset();
-  }
-
-  void set_pattern(const std::string& pattern) {
-    const auto known = pattern_from(pattern);
-    if (!known)
-      throw Error({"there is no pattern " + pattern, "pattern",
-                   fmt::format("choose one of {}", fmt::join(pattern_names(), ", "))});
-    pattern_ = *known;
-  }
-
-  void set_blank(const std::string& word) {
-    if (word != "on" && word != "off")
-      throw Error({"is neither on nor off: \"" + word + "\"", "blank", "say on or off"});
-    blank_ = word == "on";
-  }
-
-  void set_overlay(Overlay overlay, bool on) {
-    overlays_ = on ? overlays_ | overlay : overlays_ & ~std::uint32_t{overlay};
+    stage_.navigation.wall_from_scene.translation = glide_->at(now);
+    if (glide_->done(now)) glide_.reset();
   }
 
   Duration display_latency() const { return from_seconds(1e-3 * site_.viewer.display_latency_ms); }
 
   MonotonicClock clock_;
   const Site& site_;
+  const std::uint64_t epoch_ = new_epoch();
+  const Participant self_{this_participant(Role::master, "master", site_, epoch_)};
   EmulatedRoom room_;
   DdsTransport transport_;
   std::unique_ptr<Bus> bus_;
   CommandDesk desk_{*bus_, "master"};
-  std::uint64_t epoch_ = new_epoch();
   WallMaster wall_;
   Vec3 eye_in_wall_;
   TouchEye touch_{*bus_, site_};
@@ -382,26 +414,26 @@ class MasterRun {
   struct ComingScene {          // that tiles load
     CommandMessage asked{};     // answered when they show it
     std::uint64_t revision = 0;
+    Staging::Wish wish{};
   } coming_scene_;
   std::map<std::uint64_t, Stage> stages_;  // by scene
   std::uint64_t staged_scene_ = 0;
   Stage stage_;  // of the scene that is shown
   StillEye still_{site_};
-  struct Glide {
-    Vec3 from, to;  // translation of wall_from_scene
-    Time start{};
-  };
-  std::optional<Glide> glide_;
+  std::optional<Glide> glide_;            // of the stage's wall_from_scene
   std::vector<CommandMessage> captures_;  // for the next frame
   struct Captured {
     CapturedFrame frame;
     std::vector<CommandMessage> asked;  // answered when all tiles have drawn it
   } captured_;
+  std::string path_file_;
   bool elsewhere_;
-  std::uint32_t overlays_;
-  Pattern pattern_;
-  bool blank_ = false;
+  Asked asked_;
+  const Asked launched_;
+  AskedFile kept_;
+  bool remembered_ = false;
   bool stopped_ = false;
+  SignOfLife sign_of_life_;
   WallFigures figures_;
 };
 
@@ -411,7 +443,9 @@ int master(const MasterCommand& command) {
   MasterRun run(command, site);
   const WallFigures& figures = run.run(signals, command.seconds);
   std::fputs((command.json ? figures.json() : figures.table()).c_str(), stdout);
-  return 0;
+  if (!command.seconds || figures.shown()) return 0;
+  log_warning("master", "no tile has shown anything: see what tiles say, or vindu status");
+  return 1;
 }
 
 }  // namespace
@@ -420,13 +454,13 @@ void add_master(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<MasterCommand>();
   CLI::App* app = parent.add_subcommand(
       "master", "The wall's master: finds the eye, ticks, and holds the tiles together");
-  app->add_option("MODEL", command->model,
+  app->add_option("MODEL", command->asked.model,
                   "Any model that Assimp reads (default: the wall file's, or the show)");
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
-  add_place(*app, command->place);
-  add_clip(*app, command->clip);
-  app->add_option("--mode", command->mode,
+  add_place(*app, command->asked.place);
+  add_clip(*app, command->asked.clip);
+  app->add_option("--mode", command->asked.mode,
                   "track: the eye is tracked; touch: it follows a hand (vindu touch);\n"
                   "loop: it follows a path")
       ->check(CLI::IsMember({"track", "touch", "loop"}));
@@ -439,12 +473,16 @@ void add_master(CLI::App& parent, Action& chosen) {
                 "Leaves the wall file's cameras to vindu track --publish on another host;\n"
                 "without it they are asked while no such tracker is heard");
   add_targets(*app, command->targets);
-  add_pattern_choice(*app, command->pattern);
-  app->add_flag("--overlay", command->overlay, "Tiles show their figures (vindu overlay on)");
+  add_pattern_choice(*app, command->asked.pattern);
+  app->add_flag("--overlay", command->asked.overlay, "Tiles show their figures (vindu overlay on)");
   app->add_option("--csv", command->csv_file,
                   "Writes a line for each frame: its parts, motion to photon, skew")
       ->type_name("FILE");
   app->add_flag("--json", command->json, "Figures as JSON");
+  app->add_option("--session", command->session,
+                  "Of what starts a master again after a crash (vindu launch does): one with the\n"
+                  "name of the one before goes on with what consoles asked of that")
+      ->type_name("NAME");
   add_emulation(*app, command->emulation);
   app->footer(
       "\nExamples:\n"

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <string_view>
 
 namespace vindu::app {
+namespace {
 
 void tell_service_manager(std::string_view state) {
   const char* name = std::getenv("NOTIFY_SOCKET");
@@ -21,9 +23,17 @@ void tell_service_manager(std::string_view state) {
   const int socket_fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (socket_fd < 0) return;
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + path.size());
-  sendto(socket_fd, state.data(), state.size(), MSG_NOSIGNAL,
+  sendto(socket_fd, state.data(), state.size(), MSG_NOSIGNAL | MSG_DONTWAIT,
          reinterpret_cast<const sockaddr*>(&address), length);
   close(socket_fd);
+}
+
+}  // namespace
+
+void SignOfLife::give(Time now) {
+  if (given_ != Time{} && now - given_ <= std::chrono::seconds(1)) return;
+  tell_service_manager(given_ == Time{} ? "READY=1" : "WATCHDOG=1");
+  given_ = now;
 }
 
 }  // namespace vindu::app

@@ -1,12 +1,20 @@
-// What a service says to systemd, by the protocol that sd_notify(3) describes and leaves open to
-// others: datagrams to the socket that $NOTIFY_SOCKET names.
+// What a service says to systemd, or to vindu launch, by the protocol that sd_notify(3) describes
+// and leaves open to others: datagrams to the socket that $NOTIFY_SOCKET names.
 #pragma once
 
-#include <string_view>
+#include "core/clock.h"
 
 namespace vindu::app {
 
-/// "READY=1" once it works, "WATCHDOG=1" as long as it does. Nothing happens where nobody asked.
-void tell_service_manager(std::string_view state);
+/// Says "READY=1" once it works and "WATCHDOG=1" every second as long as it does, from the thread
+/// that does the work: one that hangs is started anew. Never waits; nothing happens where nobody
+/// asked.
+class SignOfLife {
+ public:
+  void give(Time now);
+
+ private:
+  Time given_{};
+};
 
 }  // namespace vindu::app

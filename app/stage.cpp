@@ -1,5 +1,6 @@
 #include "app/stage.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/sha256.h"
@@ -16,6 +17,17 @@ std::array<Vec3, 8> Stage::corners_in_wall() const {
   }
   return corners;
 }
+
+Vec3 Stage::translation_to(const Vec3& point_in_scene) const {
+  return -(navigation.wall_from_scene.rotation * (navigation.scale * point_in_scene));
+}
+
+Vec3 Glide::at(Time now) const {
+  const double share = std::clamp(seconds(now - start_), 0.0, 1.0);
+  return from_ + share * share * (3 - 2 * share) * (to_ - from_);
+}
+
+bool Glide::done(Time now) const { return now - start_ >= std::chrono::seconds(1); }
 
 Stage stage_of(const LoadedScene& loaded) {
   return {.navigation = loaded.navigation,

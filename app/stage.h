@@ -27,6 +27,21 @@ struct Stage {
   bool plays() const { return clip >= 0 && static_cast<std::size_t>(clip) < clips.size(); }
   /// Of the box, in wall.
   std::array<Vec3, 8> corners_in_wall() const;
+  /// Of wall_from_scene, that brings the point to the wall's middle.
+  Vec3 translation_to(const Vec3& point_in_scene) const;
+};
+
+/// A translation on its way to another one, within a second.
+class Glide {
+ public:
+  Glide(const Vec3& from, const Vec3& to, Time start) : from_(from), to_(to), start_(start) {}
+
+  Vec3 at(Time now) const;
+  bool done(Time now) const;
+
+ private:
+  Vec3 from_, to_;
+  Time start_;
 };
 
 Stage stage_of(const LoadedScene& loaded);

@@ -104,7 +104,7 @@ int status(const StatusCommand& command) {
   const Site site = load_site(command.wall_file);
   const StopSignals signals;
   DdsTransport transport(network_of(site, Role::console));
-  const Participant self = this_console();
+  const Participant self = this_console(site);
   const auto bus = transport.join({self, {}, WallView::hears()});
   WallView view(tile_names(site.wall), self);
   const MonotonicClock clock;

@@ -208,12 +208,8 @@ class TileRun {
       : site_(site),
         part_(part_of(site.wall, command.tiles)),
         transport_(network_of(site, Role::tile, command.tiles.front())),
-        bus_(transport_.join({{.role = Role::tile,
-                               .name = command.tiles.front(),
-                               .host = host_name(),
-                               .version = VINDU_VERSION},
-                              WallTile::publishes(),
-                              hears(site, part_)})),
+        bus_(transport_.join({this_participant(Role::tile, command.tiles.front(), site),
+                              WallTile::publishes(), hears(site, part_)})),
         tile_(*bus_, {.host = host_name(), .incarnation = random_id(), .version = VINDU_VERSION},
               command.tiles),
         shown_(command.shown_file, command.tiles.front()) {
@@ -226,14 +222,9 @@ class TileRun {
   }
 
   void run(const StopSignals& signals) {
-    tell_service_manager("READY=1");
     while (!signals.came_within(Duration::zero()) && !surface_->close_wanted()) {
+      sign_of_life_.give(clock_.now());
       step();
-      // From the thread that draws: one that hangs in a driver is started anew.
-      if (const Time now = clock_.now(); now - said_alive_ > std::chrono::seconds(1)) {
-        tell_service_manager("WATCHDOG=1");
-        said_alive_ = now;
-      }
     }
   }
 
@@ -396,7 +387,8 @@ class TileRun {
   std::string failed_;
   bool has_scene_ = false;
   std::vector<std::string> drawn_words_;  // in place of a scene
-  Time noticed_{}, said_alive_{};
+  Time noticed_{};
+  SignOfLife sign_of_life_;
 };
 
 int tile(const TileCommand& command) {

@@ -78,7 +78,7 @@ class Sender {
   explicit Sender(const Site& site)
       : picture_px_(site.wall.picture_px()),
         transport_(network_of(site, Role::console)),
-        bus_(transport_.join({this_console(), {Topic::event}, {}})),
+        bus_(transport_.join({this_console(site), {Topic::event}, {}})),
         terminal_(isatty(STDERR_FILENO) == 1) {}
   ~Sender() {
     if (terminal_ && sent_ > 0) std::fputc('\n', stderr);

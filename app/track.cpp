@@ -83,10 +83,7 @@ class Publisher {
  public:
   Publisher(const Site& site, int strength)
       : transport_(network_of(site, Role::tracker)),
-        bus_(transport_.join({{.role = Role::tracker,
-                               .name = "tracker-" + host_name(),
-                               .host = host_name(),
-                               .version = VINDU_VERSION},
+        bus_(transport_.join({this_participant(Role::tracker, "tracker-" + host_name(), site),
                               {Topic::pose, Topic::event},
                               {},
                               strength})) {}

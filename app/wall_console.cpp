@@ -19,11 +19,19 @@ DdsSettings network_of(const Site& site, Role role, const std::string& tile) {
   return settings;
 }
 
-Participant this_console() {
-  return {.role = Role::console,
-          .name = "console-" + host_name() + "-" + std::to_string(getpid()),
+Participant this_participant(Role role, const std::string& name, const Site& site,
+                             std::uint64_t epoch) {
+  return {.role = role,
+          .name = name,
           .host = host_name(),
-          .version = VINDU_VERSION};
+          .version = VINDU_VERSION,
+          .epoch = epoch,
+          .wall = fingerprint_of(site.wall)};
+}
+
+Participant this_console(const Site& site) {
+  return this_participant(Role::console, "console-" + host_name() + "-" + std::to_string(getpid()),
+                          site);
 }
 
 std::vector<std::string> tile_names(const Wall& wall) {

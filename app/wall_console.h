@@ -14,8 +14,11 @@ namespace vindu::app {
 /// count.
 DdsSettings network_of(const Site& site, Role role, const std::string& tile = {});
 
+/// This process on the bus of that wall. `epoch`: of a master.
+Participant this_participant(Role role, const std::string& name, const Site& site,
+                             std::uint64_t epoch = 0);
 /// A console with a name that no other has.
-Participant this_console();
+Participant this_console(const Site& site);
 
 std::vector<std::string> tile_names(const Wall& wall);
 

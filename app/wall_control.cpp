@@ -13,6 +13,7 @@
 #include "cluster/console.h"
 #include "cluster/dds.h"
 #include "cluster/launch/local_wall.h"
+#include "core/error.h"
 
 namespace vindu::app {
 namespace {
@@ -28,8 +29,9 @@ struct ControlCommand {
 int ask(const ControlCommand& command, Verb verb, const std::string& argument) {
   const Site site = load_site(command.wall_file);
   DdsTransport transport(network_of(site, Role::console));
-  const AnswerMessage answer = ask_wall(transport, this_console(), {verb, argument, command.clip},
-                                        from_seconds(command.timeout_s));
+  const AnswerMessage answer =
+      ask_wall(transport, this_console(site), {verb, argument, command.clip},
+               from_seconds(command.timeout_s));
   expect_done(answer);
   if (!answer.text.empty()) fmt::print("{}\n", answer.text);
   return 0;

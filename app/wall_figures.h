@@ -43,6 +43,8 @@ class WallFigures {
   void end() { forget_before(frames_ + 1); }
 
   std::uint64_t frames() const { return frames_; }
+  /// Whether any tile showed one.
+  bool shown() const { return !to_light_ms_.empty(); }
   /// From a tick to the last tile's swap: a running mean.
   Duration to_light() const { return from_seconds(to_light_s_); }
 

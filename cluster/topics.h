@@ -26,6 +26,8 @@ struct Participant {
   std::string host{};
   std::string version{};            ///< of the program
   int protocol = kProtocolVersion;  ///< messages cross only between equal ones
+  std::uint64_t epoch = 0;          ///< of a master (FrameMessage); 0: not said
+  std::string wall{};               ///< fingerprint of what it takes for the wall; empty: not said
 
   bool operator==(const Participant&) const = default;
 };

@@ -1,5 +1,7 @@
 #include "cluster/wall_master.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -21,6 +23,7 @@ WallMaster::WallMaster(Bus& bus, Options options)
     : bus_(bus),
       options_(std::move(options)),
       barrier_(options_.epoch, options_.tiles, options_.barrier),
+      roll_(options_.self),
       asked_scene_(options_.epoch),
       shown_scene_(options_.epoch) {
   for (const std::string& tile : options_.tiles) tiles_[tile];
@@ -85,11 +88,13 @@ void WallMaster::send(Time now) {
 
 bool WallMaster::hear(const ReadyMessage& ready, Time now) {
   const auto found = tiles_.find(ready.tile);
-  if (found == tiles_.end() || ready.epoch != options_.epoch) return false;
+  if (found == tiles_.end() || ready.epoch != options_.epoch ||
+      !speaks_for(ready.tile, ready.incarnation, now))
+    return false;
   TileReport& report = found->second;
   if (!report.locked) stirred_ = now;  // it wants to come in
   report.draw_time = ready.draw_time;
-  if (report.status && report.status->host == options_.host) {
+  if (report.status && report.status->host == options_.self.host) {
     report.clock = OffsetEstimate{};
   } else {
     ClockOffset& clock = clocks_[ready.tile];
@@ -127,9 +132,36 @@ std::vector<FrameSkew> WallMaster::take_skews() {
   return skews;
 }
 
+/// Else it is a process in whose place there is another.
+bool WallMaster::speaks_for(const std::string& tile, std::uint64_t incarnation, Time now) {
+  const Succession::Voice voice = processes_[tile].hear(incarnation, now);
+  if (voice == Succession::Voice::successor) warned_of_.erase(tile);
+  return voice != Succession::Voice::twin;
+}
+
+void WallMaster::warn_once(const std::string& tile, const std::string& what) {
+  constexpr std::size_t kMostWarnings = 256;  // names come from the network
+  if (warned_of_.size() < kMostWarnings && warned_of_.insert(tile).second) log_warning(tile, what);
+}
+
+/// What is new of what is wrong about who is there.
+void WallMaster::complain() {
+  std::vector<std::string> lines = roll_.complaints();
+  for (const std::string& line : lines)
+    if (std::ranges::find(complaints_, line) == complaints_.end()) log_warning("wall", line);
+  complaints_ = std::move(lines);
+}
+
 void WallMaster::hear(const StatusMessage& status, Time now) {
   const auto found = tiles_.find(status.tile);
-  if (found == tiles_.end()) return log_warning(status.tile, "is no tile of this wall: left out");
+  if (found == tiles_.end()) return warn_once(status.tile, "is no tile of this wall: left out");
+  if (!speaks_for(status.tile, status.incarnation, now)) {
+    const std::string followed = found->second.status ? found->second.status->host : "another host";
+    return warn_once(status.tile,
+                     fmt::format("runs twice: on {}, and on {}, which started later and is the one "
+                                 "that is followed; end one of them",
+                                 status.host, followed));
+  }
   const std::optional<StatusMessage>& before = found->second.status;
   if (!before || before->state != status.state || before->scene_revision != status.scene_revision)
     stirred_ = now;
@@ -138,6 +170,8 @@ void WallMaster::hear(const StatusMessage& status, Time now) {
 }
 
 void WallMaster::hear(const Presence& presence, Time now) {
+  roll_.hear(presence);
+  complain();
   const auto found = tiles_.find(presence.who.name);
   if (presence.who.role != Role::tile || found == tiles_.end()) return;
   stirred_ = now;

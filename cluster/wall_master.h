@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "cluster/bus.h"
 #include "cluster/clock_offset.h"
 #include "cluster/repeats.h"
+#include "cluster/roll.h"
+#include "cluster/succession.h"
 
 namespace vindu {
 
@@ -47,7 +50,7 @@ class WallMaster {
 
   struct Options {
     std::uint64_t epoch = 0;  ///< not 0, and larger than that of the master before
-    std::string host{};       ///< tiles on it share the master's clock
+    Participant self{};       ///< tiles on its host share its clock
     std::vector<std::string> tiles{};
     BarrierOptions barrier{};
   };
@@ -87,6 +90,8 @@ class WallMaster {
   /// Of frames whose tiles have all reported, or that are too old to wait for more.
   std::vector<FrameSkew> take_skews();
   std::size_t active() const { return barrier_.active(); }
+  /// Another one of this wall that is on the bus.
+  std::optional<Participant> other_master() const { return roll_.master(); }
   /// The number of the newest frame; 0: none was begun.
   std::uint64_t newest() const { return newest_; }
 
@@ -94,6 +99,9 @@ class WallMaster {
   bool hear(const ReadyMessage& ready, Time now);  ///< whether it has to be answered
   void hear(const StatusMessage& status, Time now);
   void hear(const Presence& presence, Time now);
+  bool speaks_for(const std::string& tile, std::uint64_t incarnation, Time now);
+  void warn_once(const std::string& tile, const std::string& what);
+  void complain();
   void note_swap(const ReadyMessage& ready, TileReport& report);
   void change_scene();
   void publish(Time now);
@@ -104,7 +112,11 @@ class WallMaster {
   Bus& bus_;
   Options options_;
   Barrier barrier_;
+  Roll roll_;
+  std::vector<std::string> complaints_;  // that were told
   std::map<std::string, TileReport> tiles_;
+  std::map<std::string, Succession> processes_;  // by tile
+  std::set<std::string> warned_of_;              // tiles that run twice, or that are not the wall's
   std::map<std::string, ClockOffset> clocks_;
   std::map<std::string, std::uint64_t>
       shown_;                                 // newest frame that each tile has said to have shown

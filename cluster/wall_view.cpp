@@ -14,11 +14,12 @@ namespace {
 
 constexpr auto kBeats = std::chrono::seconds(2);
 constexpr auto kStill = std::chrono::milliseconds(500);
+constexpr auto kTwin = std::chrono::seconds(1);  // after its last word it is gone
 constexpr const char* kEvicted = "evicted";
 
 /// A tile that says ready does not know that the others no longer wait for it; the master does.
 void mark_evicted(TileNow& tile) {
-  if (!tile.good() && tile.state != kEvicted) return;
+  if (tile.state != name_of(TileState::ready) && tile.state != kEvicted) return;
   const bool evicted = tile.report && tile.report->locked == 0 && tile.report->evictions > 0;
   tile.state = evicted ? kEvicted : name_of(TileState::ready);
 }
@@ -142,20 +143,24 @@ std::string report_text(const WallNow& wall) {
 
 }  // namespace
 
-bool WallNow::good() const { return master && std::ranges::all_of(tiles, &TileNow::good); }
+bool WallNow::good() const {
+  return master && complaints.empty() && std::ranges::all_of(tiles, &TileNow::good);
+}
 
-bool TileNow::good() const { return state == name_of(TileState::ready); }
+bool TileNow::good() const { return state == name_of(TileState::ready) && twin.empty(); }
 
 WallView::WallView(const std::vector<std::string>& tiles, Participant self)
-    : self_(std::move(self)) {
+    : roll_(std::move(self)) {
   for (const std::string& tile : tiles) now_.tiles.push_back({.name = tile});
 }
 
 void WallView::poll(Bus& bus, Time now) {
   for (const Presence& presence : bus.take<Presence>()) hear(presence);
-  for (const StatusMessage& status : bus.take<StatusMessage>()) hear(status);
+  for (const StatusMessage& status : bus.take<StatusMessage>()) hear(status, now);
   for (const FrameMessage& frame : bus.take<FrameMessage>()) hear(frame, now);
   for (const ReportMessage& report : bus.take<ReportMessage>()) hear(report);
+  for (TileNow& tile : now_.tiles)
+    if (now - twins_heard_[tile.name] > kTwin) tile.twin.clear();
 }
 
 TileNow* WallView::find(const std::string& tile) {
@@ -163,24 +168,27 @@ TileNow* WallView::find(const std::string& tile) {
   return found == now_.tiles.end() ? nullptr : &*found;
 }
 
-void WallView::hear(const StatusMessage& status) {
+void WallView::hear(const StatusMessage& status, Time now) {
   TileNow* const tile = find(status.tile);
   if (!tile) return;
-  if (tile->last.incarnation != 0 && tile->last.incarnation != status.incarnation) ++tile->restarts;
+  const Succession::Voice voice = processes_[status.tile].hear(status.incarnation, now);
+  if (voice == Succession::Voice::twin) {
+    tile->twin = status.host;
+    twins_heard_[status.tile] = now;
+    return;
+  }
+  tile->restarts += voice == Succession::Voice::successor;
   tile->last = status;
   tile->state = name_of(status.state);
   mark_evicted(*tile);
 }
 
 void WallView::hear(const Presence& presence) {
-  const bool here = presence.change == PresenceChange::joined;
   const bool gone = presence.change == PresenceChange::left;
-  if (presence.change == PresenceChange::other_version)
-    now_.complaints.push_back(version_complaint(self_, presence.who));
-  if (presence.who.role == Role::master && here) now_.master = presence.who;
-  if (presence.who.role == Role::master && gone && now_.master == presence.who) now_.master.reset();
-  if (presence.who.role == Role::tracker && gone) std::erase(now_.trackers, presence.who.name);
-  if (presence.who.role == Role::tracker && here) now_.trackers.push_back(presence.who.name);
+  roll_.hear(presence);
+  now_.master = roll_.master();
+  now_.trackers = roll_.trackers();
+  now_.complaints = roll_.complaints();
   TileNow* const tile = presence.who.role == Role::tile ? find(presence.who.name) : nullptr;
   if (tile && gone) tile->state = "gone";
   if (tile && presence.change == PresenceChange::silent) tile->state = "silent";
@@ -217,6 +225,10 @@ void WallView::hear(const ReportMessage& report) {
 std::string table_of(const WallNow& wall) {
   std::string text = master_line(wall) + report_text(wall) + text_of(rows_of(wall));
   for (const std::string& tracker : wall.trackers) text += "tracker " + tracker + "\n";
+  for (const TileNow& tile : wall.tiles)
+    if (!tile.twin.empty())
+      text += fmt::format("{} runs twice: on {}, and on {}, which is followed; end one of them\n",
+                          tile.name, tile.twin, tile.last.host);
   for (const std::string& complaint : wall.complaints) text += complaint + "\n";
   return text;
 }

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "cluster/bus.h"
+#include "cluster/roll.h"
+#include "cluster/succession.h"
 
 namespace vindu {
 
@@ -20,6 +22,7 @@ struct TileNow {
   StatusMessage last{};                   ///< the newest that it said
   std::optional<ReportMessage> report{};  ///< the master's newest about it
   int restarts = 0;                       ///< as the master counted, or since this console listens
+  std::string twin{};                     ///< host of an older process for it; empty: none
 
   bool good() const;  ///< ready, and in the frame lock
 };
@@ -36,7 +39,7 @@ struct WallNow {
   std::optional<ReportMessage> report{};  ///< the master's newest about the whole wall
   std::vector<TileNow> tiles{};           ///< in the wall file's order
   std::vector<std::string> trackers{};
-  std::vector<std::string> complaints{};  ///< about other versions
+  std::vector<std::string> complaints{};  ///< about who is there (cluster/roll.h)
 
   /// A master, and all tiles ready.
   bool good() const;
@@ -54,7 +57,7 @@ class WallView {
 
   /// Takes in what the bus, joined with these topics at least, has heard.
   void poll(Bus& bus, Time now);
-  void hear(const StatusMessage& status);
+  void hear(const StatusMessage& status, Time now);
   void hear(const Presence& presence);
   void hear(const FrameMessage& frame, Time now);
   void hear(const ReportMessage& report);
@@ -69,7 +72,9 @@ class WallView {
 
   TileNow* find(const std::string& tile);
 
-  Participant self_;
+  Roll roll_;
+  std::map<std::string, Succession> processes_;  // by tile, as the next
+  std::map<std::string, Time> twins_heard_;
   WallNow now_;
   std::deque<Beat> beats_;                          // of the last seconds, of one epoch
   std::pair<std::uint64_t, std::uint64_t> seen_{};  // hash and scene of the newest frame

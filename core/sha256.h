@@ -1,12 +1,16 @@
-// What a file holds, as 64 digits: equal on two hosts when the file is.
+// What a file or a text holds, as 64 digits: equal on two hosts when that is.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace vindu {
 
-/// SHA-256 (FIPS 180-4) of the file's bytes in hexadecimal; empty when it cannot be read.
+/// SHA-256 (FIPS 180-4) in hexadecimal.
+std::string sha256_of(std::string_view bytes);
+
+/// Of the file's bytes; empty when it cannot be read.
 std::optional<std::string> sha256_of_file(const std::string& file);
 
 }  // namespace vindu

@@ -397,6 +397,11 @@ std::string name_of(CameraSource source) {
                                          : "emulated";
 }
 
+std::string name_of(Placement placement) {
+  constexpr const char* kNames[] = {"fit", "life-size", "as-is"};
+  return kNames[static_cast<int>(placement)];
+}
+
 std::optional<Placement> placement_from(std::string_view name) {
   if (name == "fit") return Placement::fit;
   if (name == "life-size") return Placement::life_size;

@@ -152,6 +152,8 @@ Site parse_site(const std::string& text, const std::string& file);
 /// `source` for people: "emulated", "wiimote", "video".
 std::string name_of(CameraSource source);
 
+std::string name_of(Placement placement);
+/// Empty for a name that none has.
 std::optional<Placement> placement_from(std::string_view name);
 
 /// Camera that stands at `position_in_room` and looks at a point, its image upright; straight up or

@@ -1,7 +1,11 @@
 #include "core/wall.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "core/sha256.h"
 
 namespace vindu {
 namespace {
@@ -118,6 +122,19 @@ Wall expand_wall(const WallGrid& grid, const std::vector<TileOverride>& override
     if (change.mount) tile->mount = *change.mount;
   }
   return wall;
+}
+
+std::string fingerprint_of(const Wall& wall) {
+  std::string text;
+  for (const Tile& tile : wall.tiles) {
+    text += fmt::format("{} {} {} {} {}", tile.name, tile.width_px, tile.height_px,
+                        tile.mount.mirror, tile.mount.rotate_deg);
+    for (const Vec3& corner : {tile.corners.lower_left_in_wall, tile.corners.lower_right_in_wall,
+                               tile.corners.upper_left_in_wall})
+      for (const double metres : corner) text += fmt::format(" {}", std::llround(1e6 * metres));
+    text += "\n";
+  }
+  return sha256_of(text).substr(0, 16);
 }
 
 Wall single_screen(double width_m, double height_m, int width_px, int height_px) {

@@ -117,6 +117,10 @@ std::string expand_host(std::string_view pattern, int column, int row);
 Wall expand_wall(const WallGrid& grid, const std::vector<TileOverride>& overrides,
                  const Rigid3& room_from_wall);
 
+/// Of what the tiles show together: their names, pixels, mounts, and corners in whole micrometres.
+/// 16 hexadecimal digits.
+std::string fingerprint_of(const Wall& wall);
+
 /// A wall of one tile: one screen of the given size.
 Wall single_screen(double width_m, double height_m, int width_px, int height_px);
 

@@ -26,7 +26,8 @@ void bus_master(Sheet& sheet, const GoOn& go_on) {
       {{Role::master, "master", kHost, "bench"}, WallMaster::publishes(), WallMaster::hears()});
   std::vector<std::string> tiles;
   for (int tile = 0; tile < sheet.plan.tiles; ++tile) tiles.push_back(name_of_tile(tile));
-  WallMaster wall(*bus, {.epoch = 1, .host = kHost, .tiles = tiles});
+  WallMaster wall(*bus,
+                  {.epoch = 1, .self = {.role = Role::master, .host = kHost}, .tiles = tiles});
   wall.show("nothing", "", Placement::fit);
   Ticks ticks(clock.now(), sheet.plan.rate_hz);
   std::uint64_t begun = 0, released = 0;

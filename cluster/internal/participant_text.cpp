@@ -25,8 +25,9 @@ std::optional<Role> role_from(std::string_view name) {
   return std::nullopt;
 }
 
-std::optional<int> whole_number(std::string_view text) {
-  int value = 0;
+template <class Number>
+std::optional<Number> whole_number(std::string_view text) {
+  Number value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
@@ -58,16 +59,20 @@ std::string text_of(const Participant& participant) {
   add("host", participant.host);
   add("version", participant.version);
   add("protocol", std::to_string(participant.protocol));
+  if (participant.epoch != 0) add("epoch", std::to_string(participant.epoch));
+  if (!participant.wall.empty()) add("wall", participant.wall);
   return text;
 }
 
 std::optional<Participant> participant_from(std::string_view text) {
   if (text.size() > kLongestText) return std::nullopt;
   const auto role = role_from(word(text, "role"));
-  const auto protocol = whole_number(word(text, "protocol"));
+  const auto protocol = whole_number<int>(word(text, "protocol"));
   Participant participant{.name = std::string(word(text, "name")),
                           .host = std::string(word(text, "host")),
-                          .version = std::string(word(text, "version"))};
+                          .version = std::string(word(text, "version")),
+                          .epoch = whole_number<std::uint64_t>(word(text, "epoch")).value_or(0),
+                          .wall = std::string(word(text, "wall"))};
   if (!role || !protocol || participant.name.empty() || participant.host.empty() ||
       participant.version.empty())
     return std::nullopt;

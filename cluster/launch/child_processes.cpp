@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/signalfd.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,8 +12,10 @@
 #include <array>
 #include <cassert>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <utility>
 
 #include "core/error.h"
@@ -39,7 +43,8 @@ Pipe make_pipe() {
 }
 
 /// In the child, between fork and exec: nothing here allocates or locks.
-[[noreturn]] void become(char* const* words, pid_t parent, int out, int err) {
+[[noreturn]] void become(char* const* words, char* const* environment, pid_t parent, int out,
+                         int err) {
   if (!die_with(parent, SIGKILL)) _exit(kNotStarted);
   sigset_t none;
   sigemptyset(&none);
@@ -49,7 +54,7 @@ Pipe make_pipe() {
   dup2(nothing, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
-  execvp(words[0], words);
+  execvpe(words[0], words, environment);
   const char* const why = strerrordesc_np(errno);
   for (const char* part : {"cannot start ", static_cast<const char*>(words[0]), ": ",
                            why ? why : "unknown error", "\n"})
@@ -78,6 +83,37 @@ bool read_some(int pipe, std::string& into) {
   const ssize_t count = read(pipe, bytes.data(), bytes.size());
   if (count > 0) into.append(bytes.data(), static_cast<std::size_t>(count));
   return count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR);
+}
+
+/// Takes what sd_notify(3) says, and who says it.
+FileDescriptor open_signs_of_life() {
+  FileDescriptor socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const int on = 1;
+  const sockaddr_un any{.sun_family = AF_UNIX, .sun_path = {}};  // the kernel finds a name
+  if (setsockopt(socket_.get(), SOL_SOCKET, SO_PASSCRED, &on, sizeof on) != 0 ||
+      bind(socket_.get(), reinterpret_cast<const sockaddr*>(&any), sizeof any.sun_family) != 0)
+    refuse("the system gives no socket");
+  return socket_;
+}
+
+/// Ours, with the socket's name.
+std::vector<std::string> environment_with(int socket_) {
+  sockaddr_un address{};
+  socklen_t size = sizeof address;
+  getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
+  const std::size_t begin = offsetof(sockaddr_un, sun_path) + 1;
+  std::vector<std::string> environment{"NOTIFY_SOCKET=@" +
+                                       std::string(address.sun_path + 1, size - begin)};
+  for (char** entry = environ; *entry; ++entry)
+    if (!std::string_view(*entry).starts_with("NOTIFY_SOCKET=")) environment.emplace_back(*entry);
+  return environment;
+}
+
+std::vector<char*> pointers_to(const std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
 }
 
 int ms_until(Time deadline) {
@@ -110,6 +146,8 @@ ChildProcesses::ChildProcesses() {
   pthread_sigmask(SIG_BLOCK, &signals, &before_);
   signals_ = FileDescriptor(signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC));
   if (!signals_.open()) refuse("the system gives no signalfd");
+  signs_of_life_ = open_signs_of_life();
+  environment_ = environment_with(signs_of_life_.get());
 }
 
 ChildProcesses::~ChildProcesses() {
@@ -119,14 +157,13 @@ ChildProcesses::~ChildProcesses() {
 
 void ChildProcesses::start(const std::string& name, const std::vector<std::string>& words) {
   assert(!words.empty());
-  std::vector<char*> pointers;
-  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
-  pointers.push_back(nullptr);
+  const std::vector<char*> pointers = pointers_to(words), environment = pointers_to(environment_);
   Pipe out = make_pipe(), err = make_pipe();
   const pid_t self = getpid();
   const pid_t child = fork();
   if (child < 0) refuse("the system starts no process");
-  if (child == 0) become(pointers.data(), self, out.write.get(), err.write.get());
+  if (child == 0)
+    become(pointers.data(), environment.data(), self, out.write.get(), err.write.get());
   children_[child] = Child{name, {std::move(out.read), {}}, {std::move(err.read), {}}};
 }
 
@@ -139,9 +176,14 @@ void ChildProcesses::signal_all(int signal) const {
   for (const auto& [id, child] : children_) kill(id, signal);
 }
 
+void ChildProcesses::kill_one(const std::string& name) const {
+  for (const auto& [id, child] : children_)
+    if (child.name == name) kill(id, SIGKILL);
+}
+
 ChildNews ChildProcesses::wait(Time deadline) {
-  std::vector<pollfd> ready{{signals_.get(), POLLIN, 0}};
-  std::vector<std::pair<Child*, bool>> owners{{nullptr, false}};
+  std::vector<pollfd> ready{{signals_.get(), POLLIN, 0}, {signs_of_life_.get(), POLLIN, 0}};
+  std::vector<std::pair<Child*, bool>> owners{{nullptr, false}, {nullptr, false}};
   for (auto& [id, child] : children_)
     for (const bool result : {true, false})
       if (const Stream& stream = result ? child.out : child.err; stream.pipe.open()) {
@@ -150,15 +192,37 @@ ChildNews ChildProcesses::wait(Time deadline) {
       }
   ChildNews news;
   if (poll(ready.data(), ready.size(), ms_until(deadline)) <= 0) return news;
-  for (std::size_t i = 1; i < ready.size(); ++i) {
+  for (std::size_t i = 2; i < ready.size(); ++i) {
     if (!ready[i].revents) continue;
     const auto [child, result] = owners[i];
     Stream& stream = result ? child->out : child->err;
     if (read_some(stream.pipe.get(), stream.rest)) stream.pipe = FileDescriptor();
     cut_lines(stream.rest, child->name, result, news);
   }
+  if (ready[1].revents) read_signs_of_life(news);
   if (ready[0].revents) read_signals(news);
   return news;
+}
+
+/// What they say does not matter, and the kernel says who it is.
+void ChildProcesses::read_signs_of_life(ChildNews& news) const {
+  char text = 0;
+  iovec part{&text, 1};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(ucred))> control{};
+  while (true) {
+    msghdr message{};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    if (recvmsg(signs_of_life_.get(), &message, 0) < 0) return;
+    const cmsghdr* const header = CMSG_FIRSTHDR(&message);
+    if (!header || header->cmsg_type != SCM_CREDENTIALS) continue;
+    ucred sender{};
+    std::memcpy(&sender, CMSG_DATA(header), sizeof sender);
+    if (const auto child = children_.find(sender.pid); child != children_.end())
+      news.alive.push_back(child->second.name);
+  }
 }
 
 void ChildProcesses::read_signals(ChildNews& news) {

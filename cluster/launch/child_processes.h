@@ -44,6 +44,7 @@ struct ChildEnd {
 };
 
 struct ChildNews {
+  std::vector<std::string> alive;  ///< names of those that said so, by sd_notify(3)
   std::vector<ChildLine> lines;
   std::vector<ChildEnd> ends;  ///< each after its last line
   bool stop = false;           ///< Ctrl-C, SIGTERM or SIGHUP came
@@ -69,6 +70,7 @@ class ChildProcesses {
   ChildNews wait(Time deadline);
 
   void signal_all(int signal) const;
+  void kill_one(const std::string& name) const;
   bool empty() const { return children_.empty(); }
   bool has(const std::string& name) const;
 
@@ -83,6 +85,7 @@ class ChildProcesses {
   };
 
   void read_signals(ChildNews& news);
+  void read_signs_of_life(ChildNews& news) const;
   void read_all(Child& child, ChildNews& news);
   void reap(ChildNews& news);
   void kill_strays() const;
@@ -91,6 +94,8 @@ class ChildProcesses {
   Reaper reaper_;
   sigset_t before_{};
   FileDescriptor signals_;
+  FileDescriptor signs_of_life_;  // a socket, whose name is in the children's environment
+  std::vector<std::string> environment_;
 };
 
 }  // namespace vindu

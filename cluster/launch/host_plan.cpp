@@ -178,7 +178,7 @@ StartLimitIntervalSec=60
 StartLimitBurst=20
 
 [Service]
-Type=exec
+Type=notify
 ExecStart=%h/.vindu/bin/vindu master)sh" +
          model_word(request) + " --wall %h/.vindu/wall.toml" +
          unit_words(request.master_arguments) +
@@ -186,7 +186,9 @@ ExecStart=%h/.vindu/bin/vindu master)sh" +
 Restart=on-failure
 RestartSec=200ms
 RestartPreventExitStatus=2
+TimeoutStartSec=60
 TimeoutStopSec=5
+WatchdogSec=10
 )sh";
 }
 

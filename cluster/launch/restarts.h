@@ -1,5 +1,6 @@
 // When a process that died is started again: at once, ever later while it keeps dying young, and
-// not at all after too many of those. systemd does the same on hosts (unit.h).
+// not at all after too many of those; and when one hangs. systemd does the same on hosts
+// (host_plan.h).
 #pragma once
 
 #include <optional>
@@ -9,6 +10,8 @@
 namespace vindu {
 
 struct RestartPolicy {
+  /// Who has said that it lives, and says so no more, is ended after this time.
+  Duration patience = std::chrono::seconds(10);
   Duration first_delay = std::chrono::milliseconds(200);
   Duration longest_delay = std::chrono::seconds(5);
   Duration young = std::chrono::seconds(10);  ///< who lives longer starts anew

@@ -18,10 +18,10 @@ Time now_() { return std::chrono::steady_clock::now(); }
 }  // namespace
 
 Supervisor::Supervisor(std::vector<ProcessPlan> plans, Output output, const RestartPolicy& policy)
-    : output_(std::move(output)) {
+    : output_(std::move(output)), patience_(policy.patience) {
   for (ProcessPlan& plan : plans) {
     const std::string name = plan.name;
-    processes_.emplace(name, Process{std::move(plan), Restarts(policy), {}, now_()});
+    processes_.emplace(name, Process{std::move(plan), Restarts(policy), {}, now_(), {}});
   }
 }
 
@@ -31,6 +31,7 @@ bool Supervisor::run() {
     start_due(now_());
     const ChildNews news = children_.wait(next_start(now_()));
     print(news);
+    end_who_hangs(news, now_());
     for (const ChildEnd& end : news.ends)
       if (outcome == Outcome::running) outcome = consider(end);
     if (news.stop) outcome = Outcome::good;
@@ -51,6 +52,7 @@ void Supervisor::start_due(Time now) {
     if (!process.due || *process.due > now) continue;
     process.due.reset();
     process.started = now;
+    process.alive.reset();
     children_.start(name, process.plan.words);
   }
 }
@@ -68,6 +70,20 @@ void Supervisor::print(const ChildNews& news) {
       output_.result(line.text);
     else
       output_.log(line.name, line.text);
+  }
+}
+
+void Supervisor::end_who_hangs(const ChildNews& news, Time now) {
+  const bool was_away = now - std::exchange(turned_, now) > std::chrono::seconds(1);
+  for (const std::string& name : news.alive) processes_.at(name).alive = now;
+  for (auto& [name, process] : processes_) {
+    if (!process.alive) continue;
+    if (was_away) process.alive = now;  // it was this process that hung
+    if (now - *process.alive <= patience_ || !children_.has(name)) continue;
+    output_.trouble(name, fmt::format("hangs: it has said nothing for {:.0f} s; it is ended",
+                                      seconds(now - *process.alive)));
+    process.alive.reset();
+    children_.kill_one(name);
   }
 }
 

@@ -19,9 +19,9 @@ struct ProcessPlan {
   bool leads = false;              ///< when it ends by itself, all others are stopped
 };
 
-/// Who crashes or fails is started again; who ends with 0 stays ended. Who leads and ends by itself
-/// ends the wall, and so does a crash of it too many. An exit code of 2, called wrong, or 127, no
-/// such program, is final for everybody.
+/// Who crashes, fails or hangs is started again; who ends with 0 stays ended. Who leads and ends by
+/// itself ends the wall, and so does a crash of it too many. An exit code of 2, called wrong, or
+/// 127, no such program, is final for everybody.
 class Supervisor {
  public:
   struct Output {
@@ -47,13 +47,15 @@ class Supervisor {
     ProcessPlan plan;
     Restarts restarts;
     Time started{};
-    std::optional<Time> due{};  ///< empty: runs, or ended for good
+    std::optional<Time> due{};    ///< empty: runs, or ended for good
+    std::optional<Time> alive{};  ///< when it last said so; empty: never did
   };
   enum class Outcome { running, good, bad };
 
   void start_due(Time now);
   Time next_start(Time now) const;
   void print(const ChildNews& news);
+  void end_who_hangs(const ChildNews& news, Time now);
   Outcome consider(const ChildEnd& end);
   Outcome give_up(Process& process, const std::string& why);
   Outcome outcome_without_followers() const;
@@ -61,6 +63,8 @@ class Supervisor {
 
   std::map<std::string, Process> processes_;
   Output output_;
+  Duration patience_;
+  Time turned_{};
   std::vector<std::string> given_up_;
   ChildProcesses children_;
 };

@@ -109,6 +109,28 @@ TEST(FrameLock, WaitsOnceForATileThatDiesAndTakesItInAgain) {
   expect_right_frames(wall);
 }
 
+TEST(FrameLock, FollowsTheNewerOfTwoProcessesOfATileAndTheOtherOnceThatIsGone) {
+  SimulatedWall wall(4);
+  wall.run(1);
+  SimulatedTile twin(wall.world, {}, "tile-1-0");
+  twin.bus.others = {&wall.bus()};
+  wall.bus().others.push_back(&twin.bus);
+  twin.start(7);
+  ::testing::internal::CaptureStderr();
+  wall.run(5);
+  EXPECT_EQ(wall.count(MemberChange::restarted), 1u);
+  EXPECT_EQ(wall.master().active(), 4u);
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_THAT(said, ::testing::HasSubstr("tile-1-0: runs twice"));
+  EXPECT_EQ(said.find("runs twice"), said.rfind("runs twice")) << "said once";
+
+  twin.kill();
+  wall.run(5);
+  EXPECT_EQ(wall.count(MemberChange::restarted), 2u);
+  EXPECT_EQ(wall.master().active(), 4u);
+  expect_right_frames(wall);
+}
+
 TEST(FrameLock, WaitsOnceForATileThatIsStoppedOrCutOff) {
   for (const bool cable : {false, true}) {
     SimulatedWall wall(28);

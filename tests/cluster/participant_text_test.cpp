@@ -19,6 +19,14 @@ TEST(ParticipantText, ComesBack) {
   EXPECT_EQ(participant_from(text_of(kTile)), kTile);
 }
 
+TEST(ParticipantText, SaysOfAMasterWhenItCameAndOfAllWhichWallTheyMean) {
+  Participant master = kTile;
+  master.role = Role::master;
+  master.epoch = 18446744073709551615u;
+  master.wall = "0123456789abcdef";
+  EXPECT_EQ(participant_from(text_of(master)), master);
+}
+
 TEST(ParticipantText, MaySayMore) {
   EXPECT_EQ(participant_from("colour=red " + text_of(kTile) + " more=1"), kTile);
 }

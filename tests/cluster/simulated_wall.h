@@ -241,9 +241,10 @@ class SimulatedWall {
     begun_ = 0;
     tick_due_ = 0;
     eye_x_m.clear();
-    master_.emplace(bus_,
-                    WallMaster::Options{
-                        .epoch = epoch, .host = "master", .tiles = names_, .barrier = options_});
+    master_.emplace(bus_, WallMaster::Options{.epoch = epoch,
+                                              .self = {.role = Role::master, .host = "master"},
+                                              .tiles = names_,
+                                              .barrier = options_});
     start_ = world.now();
     wake();
   }

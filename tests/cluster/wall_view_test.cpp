@@ -15,6 +15,8 @@ using ::testing::Not;
 const Participant kSelf{.role = Role::console, .name = "c", .host = "here", .version = "1"};
 const Participant kMaster{.role = Role::master, .name = "master", .host = "head", .version = "1"};
 
+const Time kNow{std::chrono::seconds(50)};
+
 class Views : public ::testing::Test {
  protected:
   Views() : view_(names(), kSelf) {
@@ -32,11 +34,13 @@ class Views : public ::testing::Test {
   void say(const std::string& tile, TileState state = TileState::ready,
            std::uint64_t incarnation = 1, const std::string& error = "") {
     view_.hear(StatusMessage{.tile = tile,
+                             .host = "node",
                              .incarnation = incarnation,
                              .state = state,
                              .presented = 100,
                              .frames_per_s = 59.9,
-                             .error = error});
+                             .error = error},
+               kNow);
   }
 
   static Participant tile(const std::string& name) { return {.role = Role::tile, .name = name}; }
@@ -177,7 +181,8 @@ TEST_F(Views, FoldTilesWithTheLeastAndTheLargestOfTheirFigures) {
                            .state = TileState::ready,
                            .presented = 100,
                            .frames_per_s = 60,
-                           .draw = {.gpu_ms = 4.25}});
+                           .draw = {.gpu_ms = 4.25}},
+             kNow);
   EXPECT_THAT(table_of(view_.now()),
               ContainsRegex("tile-\\[0-6\\]-\\[0-3\\] +ready +100 +60 +4.2 +0.10-0.50 +0 +0-2\n"));
 }
@@ -186,6 +191,18 @@ TEST_F(Views, BelieveNoMasterThatWasReplaced) {
   view_.hear(FrameMessage{.epoch = 8, .newest = {.number = 1}}, Time{});
   view_.hear(report_of("", 0.4));
   EXPECT_FALSE(view_.now().report);
+}
+
+TEST_F(Views, NameATileThatRunsTwiceAndFollowTheNewerProcess) {
+  for (int turn = 0; turn < 3; ++turn) {
+    say("tile-3-1", TileState::loading, 2);
+    say("tile-3-1");
+  }
+  EXPECT_THAT(table_of(view_.now()),
+              AllOf(ContainsRegex("tile-3-1 +loading"), HasSubstr("tile-3-1 runs twice")));
+  EXPECT_EQ(view_.now().tiles[10].restarts, 1);
+  say("tile-3-1", TileState::ready, 2);
+  EXPECT_FALSE(view_.now().good());
 }
 
 TEST_F(Views, TellOfOtherVersions) {

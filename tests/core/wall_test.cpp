@@ -245,6 +245,23 @@ TEST(PointOfPicture, TakesWhatIsBesideItForItsEdgeAndRefusesWhatIsNoNumber) {
   EXPECT_FALSE(point_of_picture(wall, {std::nan(""), 0}));
 }
 
+TEST(Fingerprint, IsThatOfWhatTilesShowAndOfNothingElse) {
+  const Wall wall = expand_wall(tromso_grid(), {}, room_from_wall_at(1.55, 0));
+  EXPECT_EQ(fingerprint_of(wall).size(), 16u);
+  EXPECT_EQ(fingerprint_of(wall),
+            fingerprint_of(expand_wall(tromso_grid(), {}, room_from_wall_at(1.4, 2))));
+
+  std::vector<Wall> others(5, wall);
+  others[0].tiles[3].corners.upper_left_in_wall.z() += 2e-6;
+  others[1].tiles[3].mount.rotate_deg = 180;
+  others[2].tiles[3].name = "other";
+  others[3].tiles[3].width_px = 1025;
+  others[4].tiles.pop_back();
+  for (const Wall& other : others) EXPECT_NE(fingerprint_of(other), fingerprint_of(wall));
+  others[0].tiles[3].corners.upper_left_in_wall.z() -= 2e-6;
+  EXPECT_EQ(fingerprint_of(others[0]), fingerprint_of(wall));
+}
+
 TEST(SingleScreen, IsAWallOfOneTileAtTheDefaultHeight) {
   const Wall wall = single_screen(0.6, 0.34, 1920, 1080);
   ASSERT_EQ(wall.tiles.size(), 1u);

@@ -6,15 +6,20 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
+#include <regex>
 
 #include "tests/app/process.h"
+#include "tests/wall/children.h"
 
 namespace vindu {
 namespace {
 
 using namespace testing;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class LaunchCommand : public AppTest {
  protected:
@@ -58,6 +63,13 @@ class LaunchCommand : public AppTest {
     while (ask({"status"}).exit_code != 0) continue;
   }
 
+  /// Of the wall's own processes: the first that runs `vindu COMMAND`; -1: there is none.
+  pid_t process(const std::string& command) const {
+    const std::string pattern = "^" + std::string(VINDU_PROGRAM) + " " + command + " .*" + wall_;
+    const std::string found = run({"pgrep", "-f", pattern}).out;
+    return found.empty() ? -1 : std::stoi(found);
+  }
+
   std::string name_ = "launched-" + std::to_string(getpid());
   std::string wall_;
   pid_t launcher_ = -1;
@@ -96,12 +108,70 @@ TEST_F(LaunchCommand, GoesOnWhereTheDiskForItsLogIsFullAndHasEndedWhenStopReturn
   EXPECT_EQ(launched_exit_code(), 0);
 }
 
+TEST_F(LaunchCommand, GoesOnWithWhatItWasAskedForAfterItsMasterWasKilled) {
+  launch();
+  await_good();
+  std::filesystem::copy_file(small_model(), path("mine.obj"));
+  EXPECT_EQ(ask({"show", path("mine.obj")}).exit_code, 0);
+  EXPECT_EQ(ask({"blank", "on"}).exit_code, 0);
+  EXPECT_EQ(ask({"pattern", "counter"}).exit_code, 0);
+  const pid_t first = process("master");
+  kill(first, SIGKILL);
+  while (process("master") == first || process("master") < 0) continue;
+  await_good();
+
+  EXPECT_THAT(ask({"status"}).out, HasSubstr("pattern counter, blank"));
+  EXPECT_THAT(ask({"clip", "no-such"}).err, HasSubstr("mine: has no clips"));
+
+  EXPECT_EQ(ask({"stop"}).exit_code, 0);
+  EXPECT_EQ(launched_exit_code(), 0);
+  launch();
+  await_good();
+  EXPECT_THAT(ask({"status"}).out, Not(HasSubstr("pattern"))) << "another launch begins anew";
+}
+
+TEST_F(LaunchCommand, IsLeftAloneByASecondMasterAndByASecondProcessOfATile) {
+  launch();
+  await_good();
+  const ProcessResult master = ask({"master", "--mode", "loop", "--seconds", "60"});
+  EXPECT_EQ(master.exit_code, 1);
+  EXPECT_THAT(master.err, AllOf(HasSubstr("another master of the wall"), HasSubstr("vindu stop")));
+  EXPECT_EQ(ask({"status"}).exit_code, 0);
+
+  const Child twin(
+      {VINDU_PROGRAM, "tile", "tile-0-0", "--headless", "--scale", "0.1", "--wall", wall_},
+      path("twin.log"));
+  while (ask({"status"}).out.find("tile-0-0 runs twice") == std::string::npos) continue;
+}
+
+TEST_F(LaunchCommand, FailsWhereNoTileShowsAnything) {
+  const ProcessResult result = ask({"launch", small_model(), "--headless", "--mode", "loop",
+                                    "--seconds", "2", "--shown", "/proc/nowhere"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("no tile has shown anything"));
+}
+
+TEST_F(LaunchCommand, SaysWhichTilesHaveAnotherWallFile) {
+  launch();
+  await_good();
+  const std::string wider = write(
+      "wider.toml", std::regex_replace(bytes_of(wall_), std::regex("width_m = 1"), "width_m = 2"));
+  EXPECT_THAT(vindu({"status", "--wall", wider}).out,
+              HasSubstr("has another wall than the wall file here"));
+  kill(process("tile"), SIGSTOP);
+  const Child tile(
+      {VINDU_PROGRAM, "tile", "tile-0-0", "--headless", "--scale", "0.1", "--wall", wider},
+      path("other.log"));
+  while (ask({"status"}).out.find("tile-0-0: the wall of another wall file") == std::string::npos)
+    continue;
+}
+
 TEST_F(LaunchCommand, SaysWhatItWouldRun) {
   const ProcessResult result =
       ask({"launch", "a b.glb", "--dry-run", "--tiles-per-process", "2", "--pattern", "grid"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out,
-              AllOf(HasSubstr("vindu master --wall " + wall_ + " --pattern grid 'a b.glb'\n"),
+              AllOf(ContainsRegex("vindu master --wall .* --pattern grid --session \\w+ 'a b.glb'"),
                     HasSubstr("vindu tile tile-0-0 tile-1-0 --wall " + wall_)));
 }
 

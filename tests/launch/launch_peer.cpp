@@ -3,6 +3,8 @@
 //   launch_peer BEHAVIOUR                   one of them: prints its process id, then
 //     stay    sleeps, with a child of its own that has left the session and heeds no SIGTERM
 //     stubborn   the same, and heeds no SIGTERM itself
+//     hang    says once that it lives, and sleeps
+//     live    says so again and again
 //     end, fail, wrong, crash    ends with 0, 1, 2, or by SIGABRT,
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -46,7 +48,8 @@ int launch(const std::string& program, const std::vector<std::string>& processes
   const auto result = [](const std::string& line) { say("result: " + line); };
   return run_kept([&] {
     say(fmt::format("launcher: pid {}", getpid()));
-    Supervisor supervisor(plans, {result, log, log, [](int) {}});
+    Supervisor supervisor(plans, {result, log, log, [](int) {}},
+                          {.patience = std::chrono::milliseconds(500)});
     const bool good = supervisor.run();
     say(fmt::format("launcher: {}, {} restarts", good ? "good" : "bad", supervisor.restarts()));
     return good ? 0 : 1;
@@ -125,11 +128,21 @@ int on_hosts_of_a_wall(const std::vector<std::string>& words) {
   return failures_of(reports).empty() ? 0 : 1;
 }
 
+[[noreturn]] void live() {
+  while (true) {
+    notify_systemd("READY=1\nWATCHDOG=1");
+    usleep(100'000);
+  }
+}
+
 int behave(const std::string& behaviour) {
   if (behaviour == "stubborn") signal(SIGTERM, SIG_IGN);
   if (behaviour == "stay" || behaviour == "stubborn") leave_a_child();
   say(fmt::format("pid {}", getpid()));
   if (behaviour == "stay" || behaviour == "stubborn") sleep_for_ever();
+  if (behaviour == "hang") notify_systemd("READY=1");
+  if (behaviour == "hang") sleep_for_ever();
+  if (behaviour == "live") live();
   if (behaviour == "crash") std::abort();
   return behaviour == "end" ? 0 : behaviour == "fail" ? 1 : 2;
 }

@@ -149,6 +149,20 @@ TEST_F(Launcher, StartsACrashedMasterAgain) {
   EXPECT_NE(await_pid("result"), first);
 }
 
+TEST_F(Launcher, StartsAgainWhoSaysNoMoreThatItLives) {
+  launch({"master=live", "tile-0-0=stay", "tile-1-0=hang"});
+  await_pid("result");
+  await_pid("tile-0-0");
+  const pid_t first = await_pid("tile-1-0");
+
+  EXPECT_THAT(await_line("tile-1-0: hangs"), HasSubstr("it is ended"));
+
+  EXPECT_NE(await_pid("tile-1-0"), first);
+  kill(launcher_, SIGTERM);
+  await_line("launcher: good, 1 restarts");
+  await_nothing_left();
+}
+
 TEST_F(Launcher, GivesUpATileThatAlwaysCrashesAndKeepsTheOthers) {
   launch({"master=stay", "tile-0-0=crash", "tile-1-0=stay"});
 
