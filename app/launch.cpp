@@ -84,6 +84,9 @@ int launch(LaunchCommand command) {
   const Site site = load_site(command.wall_file);
   if (has_hosts(site))
     return launch_on_hosts(host_request_of(command), site, command.wall_file, command.hosts);
+  if (command.hosts.engine != kEngineOfHosts)
+    throw Error({"the wall is on this machine alone: its wall file names no master in [cluster]",
+                 "--engine", "leave it out, or name the master's host there"});
   if (!command.headless && !has_display()) {
     log_info("launch", "there is no display here: the tiles draw without one (--headless)");
     command.headless = true;

@@ -18,8 +18,10 @@ inline bool has_hosts(const Site& site) { return !site.cluster.master.empty(); }
 /// Throws Error for a wall of one machine.
 Site load_site_with_hosts(const std::string& wall_file);
 
+constexpr const char* kEngineOfHosts = "systemd";  ///< unless another one is asked for
+
 struct HostOptions {
-  std::string engine = "systemd";  ///< or "slurm"
+  std::string engine = kEngineOfHosts;  ///< or "slurm"
   bool dry_run = false;
 };
 void add_engine(CLI::App& app, std::string& engine);

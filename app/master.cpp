@@ -47,7 +47,7 @@ struct MasterCommand {
 
 /// So long a master that has just come listens whether there is another one, before its first
 /// frame.
-constexpr Duration kListen = std::chrono::milliseconds(200);
+constexpr Duration kListen = std::chrono::milliseconds(100);
 /// One that finds an older one within this time gives way.
 constexpr Duration kYoung = std::chrono::seconds(10);
 /// After this time of its life what it goes on with is not what the one before died of.

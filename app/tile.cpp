@@ -52,7 +52,7 @@ Wall part_of(const Wall& wall, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto tile = std::ranges::find(wall.tiles, name, &Tile::name);
     if (tile == wall.tiles.end())
-      throw Error({"the wall has no tile " + name, "--wall",
+      throw Error({"is no tile of the wall", name,
                    fmt::format("name one of {} to {}, or start it on a host of that name",
                                wall.tiles.front().name, wall.tiles.back().name)});
     part.tiles.push_back(*tile);

@@ -1,9 +1,14 @@
 #include "cluster/console.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace vindu {
 namespace {
+
+/// So long a wall may take to be found; with keys, and many hosts, some seconds.
+constexpr Duration kSearch = std::chrono::seconds(10);
 
 [[noreturn]] void no_answer(const std::optional<Participant>& master,
                             const std::optional<Participant>& other, const Participant& self) {
@@ -26,7 +31,10 @@ AnswerMessage ask_wall(Transport& transport, const Participant& self, const Requ
   const Time begin = std::chrono::steady_clock::now();
   const auto number = static_cast<std::uint64_t>(begin.time_since_epoch().count()) | 1;
   std::optional<Participant> master, other;
-  for (Time next = begin; std::chrono::steady_clock::now() < begin + patience;) {
+  const auto until = [&] {
+    return begin + (master || other ? patience : std::min(patience, kSearch));
+  };
+  for (Time next = begin; std::chrono::steady_clock::now() < until();) {
     if (std::chrono::steady_clock::now() >= next) {
       bus->publish(CommandMessage{.sender = self.name,
                                   .request = number,
@@ -35,7 +43,7 @@ AnswerMessage ask_wall(Transport& transport, const Participant& self, const Requ
                                   .clip = request.clip});
       next = std::chrono::steady_clock::now() + kAskAgain;
     }
-    bus->wait({Topic::answer, Topic::presence}, std::min(next, begin + patience));
+    bus->wait({Topic::answer, Topic::presence}, std::min(next, until()));
     for (const Presence& presence : bus->take<Presence>())
       if (presence.who.role == Role::master)
         (presence.change == PresenceChange::other_version ? other : master) = presence.who;

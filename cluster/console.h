@@ -22,7 +22,8 @@ struct Request {
 };
 
 /// Asks as `self`, a name that no other console has. Returns the wall's answer, which may be a
-/// refusal. Throws Error where no master is found or none answers in time, and says which.
+/// refusal. Throws Error where no master is found (within ten seconds at most) or none answers in
+/// time, and says which.
 AnswerMessage ask_wall(Transport& transport, const Participant& self, const Request& request,
                        Duration patience);
 

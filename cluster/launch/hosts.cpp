@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "cluster/launch/child_processes.h"
@@ -89,6 +90,26 @@ std::map<std::string, ProgramResult> listen(ChildProcesses& children) {
   throw Error({"is not installed here", name, "apt-get install " + package});
 }
 
+/// "connect to host HOST port 22": what ssh says of several hosts differs in their names alone.
+std::string without_name(const std::string& text, const std::string& host) {
+  const auto in_name = [](char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) || letter == '-' || letter == '_';
+  };
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const bool begins = at == 0 || !in_name(text[at - 1]);
+    const std::size_t end = at + host.size();
+    if (begins && text.compare(at, host.size(), host) == 0 &&
+        (end >= text.size() || !in_name(text[end]))) {
+      result += "HOST";
+      at = end;
+    } else {
+      result += text[at++];
+    }
+  }
+  return result;
+}
+
 /// By rsync, of each host its own command.
 std::vector<HostReport> copied(const std::map<std::string, std::vector<std::string>>& words) {
   ChildProcesses children;
@@ -171,11 +192,18 @@ std::vector<HostReport> copy_from_hosts(const std::vector<HostPaths>& hosts,
 }
 
 std::string failures_of(const std::vector<HostReport>& reports) {
-  std::map<HostFailure, std::vector<std::string>> hosts;
-  for (const HostReport& report : reports)
-    if (report.failure) hosts[*report.failure].push_back(report.host);
+  std::map<HostFailure, std::vector<const HostReport*>> alike;
+  for (const HostReport& report : reports) {
+    if (!report.failure) continue;
+    HostFailure failure = *report.failure;
+    failure.reason = without_name(failure.reason, report.host);
+    alike[failure].push_back(&report);
+  }
   std::string text;
-  for (const auto& [failure, names] : hosts) {
+  for (const auto& [common, each] : alike) {
+    const HostFailure& failure = each.size() == 1 ? *each.front()->failure : common;
+    std::vector<std::string> names;
+    for (const HostReport* report : each) names.push_back(report->host);
     text += fmt::format("{}: {}: {}", fold_names(names), failure.step, failure.reason);
     text += failure.remedy.empty() ? "\n" : "; " + failure.remedy + "\n";
   }

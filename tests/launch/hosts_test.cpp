@@ -55,6 +55,21 @@ TEST(Failures, AreFoldedOverEqualHosts) {
   EXPECT_THAT(failures_of({}), IsEmpty());
 }
 
+TEST(Failures, ThatDifferInTheHostsNameAloneAreFolded) {
+  const auto unreachable = [](const std::string& host) {
+    return HostReport{host,
+                      HostFailure{"ssh", "connect to host " + host + " port 22: No route to host",
+                                  "see that it is on: ssh HOST"}};
+  };
+  EXPECT_EQ(failures_of({unreachable("tile-0-0"), unreachable("tile-1-0")}),
+            "tile-[0-1]-0: ssh: connect to host HOST port 22: No route to host; see that it is "
+            "on: ssh HOST\n");
+  EXPECT_THAT(failures_of({unreachable("tile-0-0")}), HasSubstr("host tile-0-0 port"));
+  const HostReport short_name{"a", HostFailure{"ssh", "a-b: a bad key of a", ""}};
+  const HostReport other{"b", HostFailure{"ssh", "a-b: b bad key of b", ""}};
+  EXPECT_EQ(failures_of({short_name, other}), "a,b: ssh: a-b: HOST bad key of HOST\n");
+}
+
 TEST(CommandLines, NameHostsFoldedAndAskNothing) {
   const auto asked = clush_words({"tile-0-0", "tile-1-0"}, "echo @done");
   EXPECT_THAT(asked, ::testing::Contains("tile-[0-1]-0"));
