@@ -68,12 +68,14 @@ TrackedEye::TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
     : tracker_(site.cameras, site.heads, site.wall.room_from_wall, site.tracking),
       ease_(site.viewer.default_eye_in_wall),
       cameras_(site, room, clock, options.cameras),
+      warnings_(site),
       on_frame_(options.on_frame) {}
 
 EyeNow TrackedEye::at(Time now, Time photon) {
   for (const auto& camera : cameras_.sources())
     while (const auto observation = camera->next(now)) tracker_.absorb(*observation);
   const std::optional<PoseSample> pose = tracker_.track(now, photon);
+  warnings_.look(tracker_, now);
   if (on_frame_) on_frame_(tracker_);
   const bool known = pose && pose->level < TrackingLevel::held;
   const auto eye = known ? std::optional(tracker_.eye_in_wall(*pose)) : std::nullopt;

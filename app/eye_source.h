@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/camera_warnings.h"
 #include "app/cameras.h"
 #include "core/camera_path.h"
 #include "core/frame_parts.h"
@@ -47,7 +48,8 @@ struct TrackedEyeOptions {
 /// The eye of the person whom the site's cameras see.
 class TrackedEye final : public EyeSource {
  public:
-  /// The room and the clock must outlive this. Throws Error for cameras that cannot be opened.
+  /// The site, the room and the clock must outlive this. Throws Error for cameras that cannot be
+  /// opened.
   TrackedEye(const Site& site, const EmulatedRoom& room, Clock& clock,
              const TrackedEyeOptions& options);
 
@@ -59,6 +61,7 @@ class TrackedEye final : public EyeSource {
   Tracker tracker_;
   EyeEase ease_;
   Cameras cameras_;
+  CameraWarnings warnings_;
   std::function<void(const Tracker&)> on_frame_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <utility>
+
 #include "app/buttons.h"
 #include "app/common.h"
 #include "app/replay_json.h"
@@ -53,6 +56,12 @@ void PoseLines::add_poses(const Tracker& tracker, Duration shift, std::vector<st
 
 void PoseLines::add_health(const Tracker& tracker, Time time, Duration shift,
                            std::vector<std::string>& lines) {
+  const Misfit misfit{std::lround(tracker.disagreement_px()),
+                      std::lround(200 * tracker.heads_look_larger())};
+  if (std::exchange(misfit_, misfit) != misfit)
+    lines.push_back(fmt::format(R"({{"t_ns":{},"disagreement_px":{},"heads_look_larger":{:.3f}}})",
+                                nanoseconds(time + shift), misfit.disagreement_px,
+                                0.005 * static_cast<double>(misfit.half_percents)));
   const auto health = tracker.camera_health();
   if (health == health_) return;
   health_.resize(health.size());

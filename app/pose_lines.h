@@ -33,6 +33,12 @@ class PoseLines {
   std::map<int, PoseSample> said_;
   std::vector<GestureEvent> events_;
   std::vector<CameraHealth> health_;
+  struct Misfit {  // as it is said
+    long disagreement_px = 0;
+    long half_percents = 0;  // that heads look larger
+
+    bool operator==(const Misfit&) const = default;
+  } misfit_;
 };
 
 }  // namespace vindu::app

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "app/camera_warnings.h"
 #include "app/cameras.h"
 #include "app/commands.h"
 #include "app/common.h"
@@ -166,6 +167,7 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
   std::vector<WiimoteReader> readers = open_readers(command, summary, site, pace);
   Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
   Lookahead ahead(command.file, command.damage());
+  CameraWarnings warnings(site);
   PoseLines lines(site, targets_from(command.targets));
   ReplayParts parts;
   EyePath path(site);
@@ -184,6 +186,7 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
     pace.clock->sleep_until(now);
     solve.go_on();
     const auto pose = tracker.track(now, now + predicted);
+    warnings.look(tracker, now);
     parts.add(now, pose, solve.pause());
     path.add(tracker, pose, now);
     if (command.track)

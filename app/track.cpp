@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/camera_warnings.h"
 #include "app/cameras.h"
 #include "app/commands.h"
 #include "app/common.h"
@@ -72,6 +73,11 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
     if (health[i].masks)
       line += fmt::format("  {}: {} masked", site.cameras[i].name, health[i].masks);
   }
+  if (tracker.nothing_fits()) line += "  the dots fit no head!";
+  if (const double px = tracker.disagreement_px(); px >= 1)
+    line += fmt::format("  cameras contradict each other by {:.0f} px!", px);
+  if (const double larger = tracker.heads_look_larger(); std::abs(larger) > 0.01)
+    line += fmt::format("  sizes are off by {:.1f} %!", 100 * larger);
   for (const CameraState& state : states)
     if (!state.trouble.empty()) line += fmt::format("  {}: {}", state.name, state.trouble);
   return line;
@@ -125,6 +131,8 @@ void print_table(const Tracker& tracker, const Cameras& cameras, const Site& sit
     fmt::print("  {:<10}{}, {} reflections masked{}\n", site.cameras[i].name,
                health[i].device_time ? "times by its own clock" : "times by arrival",
                health[i].masks, health[i].moved ? ", was MOVED: calibrate it again" : "");
+  if (const std::string text = misfit_text(site, tracker); !text.empty())
+    fmt::print("  {}\n", text);
   for (const CameraState& camera : cameras.states())
     if (camera.gaps)
       fmt::print("  {:<10}gaps: {}; {}{}\n", camera.name, vindu::text_of(*camera.gaps),
@@ -140,6 +148,7 @@ int track(const TrackCommand& command) {
   const EmulatedRoom room(site, clock, walking_room(command.emulation, command.seed, clock.now()));
   const Cameras cameras(site, room, clock);
   Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
+  CameraWarnings warnings(site);
   PoseLines lines(site, targets);
   std::optional<Publisher> publisher;
   if (command.publish) publisher.emplace(site, command.strength);
@@ -155,6 +164,7 @@ int track(const TrackCommand& command) {
     for (const auto& camera : cameras.sources())
       while (const auto seen = camera->next(now)) tracker.absorb(*seen);
     const auto pose = tracker.track(now, now + ahead);
+    if (!terminal) warnings.look(tracker, now);  // else they stand in the status line
     if (publisher) publisher->publish(tracker, pose, clock.now());
     for (const std::string& line : lines.news(tracker, {}))
       if (command.json) std::puts(line.c_str());

@@ -163,4 +163,19 @@ std::vector<CameraHealth> Tracker::camera_health() const {
   return joint ? joint->health() : std::vector<CameraHealth>{};
 }
 
+double Tracker::disagreement_px() const {
+  const auto* joint = std::get_if<JointMethod>(&method_);
+  return joint ? joint->disagreement_px() : 0;
+}
+
+double Tracker::heads_look_larger() const {
+  const auto* joint = std::get_if<JointMethod>(&method_);
+  return joint ? joint->heads_look_larger() : 0;
+}
+
+bool Tracker::nothing_fits() const {
+  const auto* joint = std::get_if<JointMethod>(&method_);
+  return joint && joint->nothing_fits();
+}
+
 }  // namespace vindu

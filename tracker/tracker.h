@@ -71,6 +71,10 @@ class Tracker {
   const TrackerCounts& counts() const { return counts_; }
   /// In the order of the cameras; empty for the thesis' method, which knows nothing of that.
   std::vector<CameraHealth> camera_health() const;
+  /// By how much the cameras contradict each other (JointMethod); 0 for the thesis' method.
+  double disagreement_px() const;
+  double heads_look_larger() const;  ///< the same; 0
+  bool nothing_fits() const;         ///< the same; false
   /// The LEDs that the thesis' method found last, with their errors; may be empty.
   std::span<const TriangulatedPoint> points() const { return points_; }
 

@@ -93,6 +93,20 @@ TEST_F(ReplayCommand, TracksTheSamePosesAsWereTrackedLive) {
   for (std::size_t i = 0; i < lines.size(); ++i) ASSERT_THAT(lines[i], HasSubstr(eyes[i])) << i;
 }
 
+TEST_F(ReplayCommand, TracksWithACameraThatWasBumpedAndSaysWhatDoesNotFit) {
+  record_and_track_live("a.vrec");
+  std::string wall = bytes_of(kWall);
+  const std::size_t right = wall.find("look_at_m", wall.find("name = \"right\""));
+  wall.replace(wall.find("1.65", right), 4, "1.67");  // 0.36 degrees higher
+  const ProcessResult result =
+      vindu({"replay", path("a.vrec"), "--track", "--wall", write("bumped.toml", wall)});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr(R"("level":"six-dof")"));
+  EXPECT_THAT(result.out, ContainsRegex("\"disagreement_px\":[3-9],"));
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("left and right contradict each other by"), HasSubstr("calibrate")));
+}
+
 TEST_F(ReplayCommand, WritesTheEyeAsAPathThatAFilmFollows) {
   record_and_track_live("a.vrec");
   const ProcessResult result =

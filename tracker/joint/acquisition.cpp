@@ -244,7 +244,7 @@ bool HeadSearch::advance(std::size_t most) {
   return false;
 }
 
-std::optional<FoundHead> HeadSearch::winner() { return contest_->winner(); }
+std::optional<FoundHead> HeadSearch::winner() const { return contest_->winner(); }
 
 const std::vector<CameraView>& HeadSearch::views() const { return contest_->views(); }
 

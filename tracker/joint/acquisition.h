@@ -60,7 +60,7 @@ class HeadSearch {
   bool advance(std::size_t most);
 
   /// In the end. Empty when there is no candidate, or two are too close to choose.
-  std::optional<FoundHead> winner();
+  std::optional<FoundHead> winner() const;
 
   const std::vector<CameraView>& views() const;
 

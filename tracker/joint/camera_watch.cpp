@@ -5,9 +5,33 @@
 
 namespace vindu {
 
-void CameraWatch::count(const Association& association) {
+/// Mean and spread of what is left over, of the expected dots' picture.
+void CameraWatch::note_misfit(const Association& association, const DotList& dots) {
+  constexpr double kShare = 0.005, kLeastSpread_px = 20;
+  const auto count = static_cast<double>(association.accepted.size());
+  const auto expected_px = [&](const AcceptedDot& dot) -> Vec2 {
+    return raw_px_of(dots[dot.dot]) - dot.residual_px;
+  };
+  Vec2 aside_px = Vec2::Zero(), middle_px = Vec2::Zero();
+  for (const AcceptedDot& dot : association.accepted) {
+    aside_px += dot.residual_px / count;
+    middle_px += expected_px(dot) / count;
+  }
+  aside_px_ += kShare * (aside_px - aside_px_);
+  double outward_px2 = 0, spread_px2 = 0;
+  for (const AcceptedDot& dot : association.accepted) {
+    const Vec2 arm_px = expected_px(dot) - middle_px;
+    outward_px2 += arm_px.dot(dot.residual_px - aside_px);
+    spread_px2 += arm_px.squaredNorm();
+  }
+  if (spread_px2 > kLeastSpread_px * kLeastSpread_px)
+    larger_ += kShare * (outward_px2 / spread_px2 - larger_);
+}
+
+void CameraWatch::count(const Association& association, const DotList& dots) {
   constexpr int kCalm = 30;
   if (association.accepted.empty()) return;
+  note_misfit(association, dots);
   fitting_ = association.widened ? 0 : fitting_ + 1;
   if (fitting_ > kCalm) widenings_ = 0;
   if (association.widened) ++widenings_;

@@ -11,7 +11,7 @@ namespace vindu {
 class CameraWatch {
  public:
   /// A report of it, taken in while a head is tracked.
-  void count(const Association& association);
+  void count(const Association& association, const DotList& dots);
   /// Whether its dots fit what others see at the same time; some twenty times a second.
   void judge(bool fits);
 
@@ -22,11 +22,22 @@ class CameraWatch {
   /// Factor on the sigma of its dots.
   double distrust() const { return moved_ ? 6 : 1; }
 
+  /// How far its dots stand from where all cameras together expect them: the mean over some
+  /// seconds, raw pixels. Noise and motion cancel out of it.
+  Vec2 aside_px() const { return aside_px_; }
+  /// By which share its heads look larger than they should where all cameras together see them: the
+  /// mean over some seconds.
+  double larger() const { return larger_; }
+
   /// Whether moving dots would fit better, had they been captured at another time; that time is
   /// given less the one in use. Then both change places here as well.
   bool prefers_other_time(const Association& association, double other_less_used_s);
 
  private:
+  void note_misfit(const Association& association, const DotList& dots);
+
+  Vec2 aside_px_ = Vec2::Zero();
+  double larger_ = 0;
   double disagreement_ = 0;  // running mean over about a second; 0: all fits, 1: nothing
   bool moved_ = false;
   int widenings_ = 0;

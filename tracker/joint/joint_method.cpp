@@ -22,10 +22,8 @@ constexpr Duration kLook = Milliseconds(25);          // between two looks for a
 constexpr Duration kDoubt = Milliseconds(50);         // between two checks of a doubtful one
 constexpr Duration kCheck = std::chrono::seconds(2);  // and of one that explains all dots,
 constexpr Duration kCheckMany = std::chrono::seconds(10);  // so many that they agree on no other
-constexpr Duration kLevelWindow = Milliseconds(35);        // that the level is judged by
 constexpr Duration kHeld = Milliseconds(250);
 constexpr Duration kLost = std::chrono::seconds(2);
-constexpr Duration kRemembered = Milliseconds(500);  // what was sure, to place the eye by
 constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
 
 std::ptrdiff_t dots_of(const FoundHead& found) {
@@ -83,7 +81,7 @@ void JointMethod::absorb(const Observation& observation) {
   entry.seen = {.camera = observation.camera,
                 .captured = used.time,
                 .time_sigma_s = seconds(used.sigma),
-                .dot_sigma_px = options_.dot_sigma_px,
+                .dot_sigma_px = std::hypot(options_.dot_sigma_px, disagreement_.sigma_px()),
                 .distrust = eye.watch.distrust(),
                 .dots = {}};
   for (const Dot& dot : observation.dots) {
@@ -113,6 +111,7 @@ void JointMethod::replay() {
     const auto camera = static_cast<std::size_t>(entry.seen.camera);
     AssociationOptions options = association_;
     options.may_widen = eyes_[camera].watch.may_widen();
+    options.farthest_px += 2 * disagreement_.sigma_px();
     entry.association =
         associate(entry.seen, cameras_[camera], leds_of_heads_, entry.after, options);
     for (const auto& [head, state] : entry.births) {
@@ -165,10 +164,18 @@ void JointMethod::judge(Entry& entry) {
     else if (!entry.association.disputed[i])
       eye.statics.watch(raw_px, entry.seen.captured);
   }
-  eye.watch.count(entry.association);
+  eye.watch.count(entry.association, entry.seen.dots);
+  if (cameras_.size() == 2) note_disagreement();
   const double other_s = seconds(entry.other_time - entry.seen.captured);
   if (eye.clock.locked() && eye.watch.prefers_other_time(entry.association, other_s))
     eye.uses_device_time = !eye.uses_device_time;
+}
+
+/// With more than two cameras the one that stands aside is named, and trusted less.
+void JointMethod::note_disagreement() {
+  double largest_px = 0;
+  for (const Eye& eye : eyes_) largest_px = std::max(largest_px, eye.watch.aside_px().norm());
+  disagreement_.note_aside(largest_px);
 }
 
 /// The newest time that all cameras which have reported lately have reported of.
@@ -200,11 +207,13 @@ std::vector<std::size_t> JointMethod::together(Time common) const {
 }
 
 /// Of a report: the dots that may be this head's. Not those of others, nor known reflections.
-CameraView JointMethod::view_of(const Entry& entry, std::size_t head, Duration apart) const {
+CameraView JointMethod::view_of(const Entry& entry, std::size_t head, Duration apart,
+                                double slack_px) const {
   const TimedDots& seen = entry.seen;
-  CameraView view{.camera = seen.camera,
-                  .dots_px = {},
-                  .sigma_px = std::hypot(seen.dot_sigma_px, kHeadSpeed_px_s * seconds(apart))};
+  CameraView view{
+      .camera = seen.camera,
+      .dots_px = {},
+      .sigma_px = std::hypot(options_.dot_sigma_px, slack_px, kHeadSpeed_px_s * seconds(apart))};
   std::array<bool, kMaxDots> excluded = seen.masked;
   for (const AcceptedDot& dot : entry.association.accepted)
     excluded[dot.dot] = dot.head != static_cast<int>(head);
@@ -225,8 +234,9 @@ void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t ent
   replay_from_ = std::min(replay_from_, entry);
 }
 
-AcquisitionOptions JointMethod::acquisition_options(const HeadTrack& head) const {
+AcquisitionOptions JointMethod::acquisition_options(const HeadTrack& head, double slack_px) const {
   AcquisitionOptions options;
+  options.largest_rms_px += 1.5 * slack_px;
   if (head.state) options.believed = head.state->room_from_head;
   // Three dots always fit some pose; where there is but one camera, that has to do.
   options.least_dots = cameras_.size() == 1 ? 3 : 4;
@@ -264,68 +274,6 @@ Duration JointMethod::pause_of_looks(std::size_t head) const {
   return kOwnPerLeft * left > own ? kDoubt : left > 0 ? kCheck : kCheckMany;
 }
 
-bool JointMethod::bears(const Entry& entry, std::size_t head) {
-  return std::ranges::any_of(entry.births, [&](const auto& birth) { return birth.first == head; });
-}
-
-/// Whether so few dots are the head's since it was found, and so many nobody's, that the few may
-/// fit by chance. A camera that was bumped says nothing.
-bool JointMethod::contradicted(std::size_t head) const {
-  constexpr Duration kLately = Milliseconds(100);
-  constexpr double kFew = 5, kLeftPerOwn = 0.5;
-  struct Count {
-    double reports = 0, own = 0, left = 0;
-  };
-  std::vector<Count> counts(cameras_.size());
-  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
-    const auto camera = static_cast<std::size_t>(entry->seen.camera);
-    if (entries_.back().seen.captured - entry->seen.captured > kLately || bears(*entry, head) ||
-        !entry->after[head].state)
-      break;
-    if (eyes_[camera].watch.moved()) continue;
-    std::array<bool, kMaxDots> known = entry->seen.masked;
-    for (std::size_t i = 0; i < known.size(); ++i) known[i] |= entry->association.disputed[i];
-    for (const AcceptedDot& dot : entry->association.accepted) {
-      known[dot.dot] = true;
-      counts[camera].own += dot.head == static_cast<int>(head);
-    }
-    ++counts[camera].reports;
-    counts[camera].left += static_cast<double>(
-        std::count(known.begin(),
-                   known.begin() + static_cast<std::ptrdiff_t>(entry->seen.dots.size()), false));
-  }
-  double own = 0, left = 0;
-  for (const Count& count : counts) {
-    own += count.own / std::max(1.0, count.reports);
-    left += count.left / std::max(1.0, count.reports);
-  }
-  return own < kFew && left > kLeftPerOwn * own;
-}
-
-/// Whether what was seen lately tells one LED from another: three of two cameras' dots always fit
-/// some pose, and so do two LEDs whichever they are. One camera alone has no more than three dots.
-bool JointMethod::sure(std::size_t head) const {
-  constexpr Duration kLately = Milliseconds(80);
-  std::vector<std::ptrdiff_t> most(cameras_.size());  // dots of one report
-  std::array<bool, kMaxLeds> seen{};
-  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
-    if (entries_.back().seen.captured - entry->seen.captured > kLately) break;
-    std::ptrdiff_t dots = 0;
-    for (const AcceptedDot& dot : entry->association.accepted) {
-      if (dot.head != static_cast<int>(head)) continue;
-      seen[static_cast<std::size_t>(dot.led)] = true;
-      ++dots;
-    }
-    auto& of_camera = most[static_cast<std::size_t>(entry->seen.camera)];
-    of_camera = std::max(of_camera, dots);
-  }
-  const std::ptrdiff_t leds = std::ssize(leds_of_heads_[head]);
-  const auto dots_needed = cameras_.size() == 1 ? std::min<std::ptrdiff_t>(leds, 3)
-                                                : std::min<std::ptrdiff_t>(2 * leds, 4);
-  return std::accumulate(most.begin(), most.end(), std::ptrdiff_t{0}) >= dots_needed &&
-         std::ranges::count(seen, true) >= std::min<std::ptrdiff_t>(leds, 3);
-}
-
 // One that is tracked is looked for as well; where nothing speaks against it, by one step a
 // frame, so that no frame pays for the whole look.
 void JointMethod::look_for(std::size_t head, Time now) {
@@ -343,15 +291,19 @@ void JointMethod::look_for(std::size_t head, Time now) {
   const TimedDots& seen = entries_[newest].seen;
   if (seen.captured <= search.seen) return;  // the same reports prove nothing new
   search.seen = seen.captured;
+  const HeadTrack& track = entries_[newest].after[head];
+  // Which of several heads it is could not be told.
+  const bool tolerant = searches_.size() == 1 && (!track.state || contradicted(head));
+  const double slack_px = tolerant ? disagreement_.sigma_of_look_px() : disagreement_.sigma_px();
   std::vector<CameraView> views;
   for (const std::size_t i : entries)
     views.push_back(
-        view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common)));
-  const HeadTrack& track = entries_[newest].after[head];
+        view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common), slack_px));
   search.look = Look{.search = HeadSearch(cameras_, std::move(views), leds_of_heads_[head],
-                                          acquisition_options(track)),
+                                          acquisition_options(track, slack_px)),
                      .camera = seen.camera,
                      .captured = seen.captured,
+                     .slack_px = slack_px,
                      .steps = pause >= kCheck && !search.rumour ? 1 : kAll};
   if (track.state) search.look->tracked = track.state->room_from_head;
 }
@@ -371,20 +323,38 @@ std::optional<std::size_t> JointMethod::entry_of(const Look& look) const {
   return std::nullopt;
 }
 
+/// Whether two cameras or more see as many dots as a head has LEDs: then it should be found.
+bool JointMethod::dots_enough(const Look& look) const {
+  const auto all = [](const CameraView& view) { return view.dots_px.size() >= 3; };
+  return std::ranges::count_if(look.search.views(), all) >= 2;
+}
+
 // Looks in a row that find a head in one place are right: false dots do not repeat themselves.
 void JointMethod::conclude(std::size_t head) {
   Search& search = searches_[head];
-  const auto found = search.look->search.winner();
-  if (!found || !(options_.position_only || fits_closely(*found))) return search.rumour.reset();
-  judge_cameras(search.look->search.views(), *found);
-  const std::optional<Rigid3>& tracked = search.look->tracked;
+  const Look& look = *search.look;
+  const auto found = look.search.winner();
+  const bool tolerant = look.slack_px > disagreement_.sigma_px();
+  const bool doubted = !look.tracked || contradicted(head);
+  const bool fits = found && (options_.position_only || fits_closely(*found)) &&
+                    (!tolerant || dots_of(*found) >= kManyDots);
+  if (fits) judge_cameras(look.search.views(), *found);
+  const bool known =
+      fits && (found->believed || (look.tracked && !(tolerant && doubted) &&
+                                   same_pose(found->fit.room_from_head, *look.tracked)));
+  if (!fits || known) {
+    if (doubted) disagreement_.look_failed(dots_enough(look));
+    return search.rumour.reset();
+  }
   const Rigid3& pose = found->fit.room_from_head;
-  if (found->believed || (tracked && same_pose(pose, *tracked))) return search.rumour.reset();
   const bool again = search.rumour && same_pose(pose, *search.rumour);
   search.rumour = pose;
   search.confirmed = again ? search.confirmed + 1 : 1;
-  if (search.confirmed < looks_needed(*found, tracked && contradicted(head))) return;
-  if (const auto newest = entry_of(*search.look)) bear(head, *found, *newest);
+  if (search.confirmed < looks_needed(*found, look.tracked && doubted)) return;
+  const auto newest = entry_of(look);
+  if (!newest) return;
+  disagreement_.look_succeeded(look.slack_px);
+  bear(head, *found, *newest);
 }
 
 void JointMethod::update(Time now) {
@@ -402,32 +372,6 @@ void JointMethod::update(Time now) {
   }
 }
 
-// By the dots that each camera's newest report gave.
-TrackingLevel JointMethod::level_now(std::size_t head) const {
-  if (options_.position_only) return TrackingLevel::position;
-  if (contradicted(head)) return TrackingLevel::held;
-  const auto& state = newest_heads()[head].state;
-  Mat6 information = Mat6::Zero();
-  std::vector<bool> done(cameras_.size(), false);
-  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
-    if (entries_.back().seen.captured - entry->seen.captured > kLevelWindow) break;
-    const auto camera = static_cast<std::size_t>(entry->seen.camera);
-    if (done[camera]) continue;
-    for (const AcceptedDot& accepted : entry->association.accepted) {
-      if (accepted.head != static_cast<int>(head)) continue;
-      const auto dot = dot_of_led(cameras_[camera], state->room_from_head,
-                                  leds_of_heads_[head][static_cast<std::size_t>(accepted.led)]);
-      if (!dot) continue;
-      done[camera] = true;
-      information += dot->d_raw_d_pose.transpose() * dot->d_raw_d_pose /
-                     (entry->seen.dot_sigma_px * entry->seen.dot_sigma_px);
-    }
-  }
-  const TrackingLevel level = std::min(level_of(information), TrackingLevel::bearing);
-  const Duration remembered = entries_.back().seen.captured - searches_[head].sure;
-  return remembered > kRemembered ? TrackingLevel::bearing : level;
-}
-
 std::optional<PoseSample> JointMethod::pose(std::size_t head, Time photon) const {
   const HeadTrack& last = searches_[head].last;
   if (!last.state) return std::nullopt;
@@ -438,19 +382,11 @@ std::optional<PoseSample> JointMethod::pose(std::size_t head, Time photon) const
   sample.object = static_cast<int>(head);
   sample.time = photon;
   sample.capture_time = last.seen;
+  if (tracked) add_misfit(head, sample);
   sample.level = tracked          ? level_now(head)
                  : unseen > kLost ? TrackingLevel::lost
                                   : TrackingLevel::held;
   return sample;
-}
-
-std::vector<CameraHealth> JointMethod::health() const {
-  std::vector<CameraHealth> health;
-  for (const Eye& eye : eyes_)
-    health.push_back({.moved = eye.watch.moved(),
-                      .device_time = eye.uses_device_time && eye.clock.locked(),
-                      .masks = eye.statics.masks_px().size()});
-  return health;
 }
 
 }  // namespace vindu

@@ -15,6 +15,7 @@
 #include "tracker/joint/association.h"
 #include "tracker/joint/camera_watch.h"
 #include "tracker/joint/capture_clock.h"
+#include "tracker/joint/disagreement.h"
 #include "tracker/joint/static_dots.h"
 
 namespace vindu {
@@ -57,6 +58,15 @@ class JointMethod {
   void update(Time now);
 
   std::vector<CameraHealth> health() const;
+  /// By how much the cameras contradict each other, beyond what their dots' noise explains: raw
+  /// pixels, one sigma; 0 where they agree.
+  double disagreement_px() const { return disagreement_.sigma_px(); }
+  /// Whether two cameras have seen dots enough for seconds that are no head's, whatever is allowed
+  /// for.
+  /// By which share heads look larger than their LEDs are apart where the cameras' rays meet; that
+  /// of the camera with the most, of two or more. Poses of cameras, lenses or LEDs are wrong then.
+  double heads_look_larger() const;
+  bool nothing_fits() const { return disagreement_.nothing_fits(); }
 
  private:
   struct Entry {
@@ -81,6 +91,7 @@ class JointMethod {
     int camera = 0;
     Time captured{};
     std::optional<Rigid3> tracked{};  ///< where the head was by then
+    double slack_px = 0;              ///< that its dots were given for what cameras contradict
     std::size_t steps = 0;            ///< a frame
   };
 
@@ -94,13 +105,17 @@ class JointMethod {
   std::optional<std::size_t> entry_of(const Look& look) const;
   Time common_time() const;
   std::vector<std::size_t> together(Time common) const;
-  CameraView view_of(const Entry& entry, std::size_t head, Duration apart) const;
-  AcquisitionOptions acquisition_options(const HeadTrack& head) const;
+  CameraView view_of(const Entry& entry, std::size_t head, Duration apart, double slack_px) const;
+  void note_disagreement();
+  AcquisitionOptions acquisition_options(const HeadTrack& head, double slack_px) const;
+  bool dots_enough(const Look& look) const;
   Duration pause_of_looks(std::size_t head) const;
   bool contradicted(std::size_t head) const;
   bool sure(std::size_t head) const;
   static bool bears(const Entry& entry, std::size_t head);
   void bear(std::size_t head, const FoundHead& found, std::size_t entry);
+  Mat6 information_now(std::size_t head) const;
+  void add_misfit(std::size_t head, PoseSample& sample) const;
   TrackingLevel level_now(std::size_t head) const;
   void judge_cameras(const std::vector<CameraView>& views, const FoundHead& found);
   const std::vector<HeadTrack>& newest_heads() const;
@@ -110,6 +125,7 @@ class JointMethod {
   std::vector<CameraModel> cameras_;
   std::vector<Eye> eyes_;
   std::vector<std::vector<Vec3>> leds_of_heads_;
+  Disagreement disagreement_;
   std::deque<Entry> entries_;  // in order of capture
   std::size_t replay_from_ = 0;
   std::vector<HeadTrack> base_;  // before the first entry

@@ -65,6 +65,15 @@ class JointMethodTest : public ::testing::Test {
     return pose ? (pose->room_from_head.translation - truth.translation).norm() : 1e9;
   }
 
+  /// Somebody turns the right camera: about its x axis (its picture moves up and down) or its y
+  /// axis.
+  void bump(int axis, double px) {
+    Vec3 turn = Vec3::Zero();
+    turn[axis] = px / 1335;
+    configs_[1].room_from_camera.rotation =
+        configs_[1].room_from_camera.rotation * rotation_of(turn);
+  }
+
   std::vector<CameraConfig> configs_;
   std::vector<HeadConfig> heads_ = std::vector<HeadConfig>(1);
   Random random_{1};
@@ -198,6 +207,68 @@ TEST_F(JointMethodTest, names_the_one_of_three_cameras_that_was_bumped) {
   EXPECT_FALSE(method.health()[0].moved);
   EXPECT_FALSE(method.health()[1].moved);
   EXPECT_LT(error_m(method, 0, Time{milliseconds(8990)}, walking(8.99)), 0.02);
+}
+
+/// A quarter of a degree (5 px), up and down: no pose of a head fits both cameras' dots.
+TEST_F(JointMethodTest, follows_a_head_though_two_cameras_contradict_each_other_and_says_so) {
+  const std::vector<CameraConfig> calibrated = configs_;
+  for (const double px : {0.0, 5.0, 15.0, 40.0}) {
+    JointMethod method(calibrated, heads_);
+    configs_ = calibrated;
+    bump(0, px);
+    feed(method, 0, 20, [](double t) { return std::vector{walking(t)}; });
+    const Time end{milliseconds(19990)};
+    const auto pose = method.pose(0, end);
+    ASSERT_TRUE(pose) << px;
+    EXPECT_LT(pose->level, TrackingLevel::held) << px;
+    EXPECT_GE(method.disagreement_px(), 0.25 * px);
+    EXPECT_LE(method.disagreement_px(), 0.75 * px);
+    const double sigma_m = std::sqrt(pose->covariance.topLeftCorner<3, 3>().trace());
+    EXPECT_LT(error_m(method, 0, end, walking(19.99)), 3 * sigma_m) << px;
+    EXPECT_LT(sigma_m, 0.003 + 0.004 * px);
+  }
+}
+
+TEST_F(JointMethodTest, takes_a_camera_that_is_bumped_and_put_right_again_as_it_is) {
+  const std::vector<CameraConfig> calibrated = configs_;
+  JointMethod method(calibrated, heads_);
+  const auto walks = [](double t) { return std::vector{walking(t)}; };
+  feed(method, 0, 3, walks);
+  EXPECT_EQ(method.disagreement_px(), 0);
+  bump(0, 8);
+  feed(method, 3, 10, walks);
+  EXPECT_LT(method.pose(0, Time{milliseconds(9990)})->level, TrackingLevel::held);
+  EXPECT_GT(method.disagreement_px(), 2);
+  configs_ = calibrated;
+  feed(method, 10, 50, walks);
+  EXPECT_EQ(method.disagreement_px(), 0);
+  EXPECT_LT(error_m(method, 0, Time{milliseconds(49990)}, walking(49.99)), 0.006);
+}
+
+/// To the side their rays meet all the same, in a wrong place, where the head looks too small.
+TEST_F(JointMethodTest, knows_by_how_much_a_place_is_off_that_heads_look_too_small_for) {
+  const std::vector<CameraConfig> calibrated = configs_;
+  for (const double px : {8.0, 15.0, -15.0}) {
+    JointMethod method(calibrated, heads_);
+    configs_ = calibrated;
+    bump(1, px);
+    feed(method, 0, 10, [](double t) { return std::vector{walking(t)}; });
+    const Time end{milliseconds(9990)};
+    const double off_m = error_m(method, 0, end, walking(9.99));
+    EXPECT_NEAR(std::abs(method.heads_look_larger()), off_m / 3.3, 0.25 * off_m / 3.3) << px;
+    const auto pose = method.pose(0, end);
+    const double sigma_m = std::sqrt(pose->covariance.topLeftCorner<3, 3>().trace());
+    EXPECT_NEAR(sigma_m, off_m, 0.3 * off_m) << px;
+  }
+}
+
+TEST_F(JointMethodTest, says_that_dots_enough_fit_no_head) {
+  JointMethod method(configs_, heads_);
+  heads_[0].leds_in_head = {{-0.3, 0, 0}, {0, 0.3, 0.1}, {0.2, 0, 0}};
+  feed(method, 0, 3, [](double t) { return std::vector{walking(t)}; });
+  EXPECT_FALSE(method.nothing_fits());
+  feed(method, 3, 15, [](double t) { return std::vector{walking(t)}; });
+  EXPECT_TRUE(method.nothing_fits());
 }
 
 TEST_F(JointMethodTest, places_the_eye_for_half_a_second_by_what_was_sure) {
