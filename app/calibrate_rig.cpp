@@ -12,6 +12,7 @@
 #include "app/cameras.h"
 #include "app/common.h"
 #include "core/error.h"
+#include "core/log.h"
 #include "tracker/calibration/grid.h"
 #include "tracker/calibration/lens.h"
 #include "tracker/camera_model.h"
@@ -85,6 +86,22 @@ std::string lens_json(const std::string& name, const LensResult& lens) {
                      p2, k3, lens.views, lens.rms_px, lens.coverage.share());
 }
 
+/// What it replaces may have been better, and the camera's place may hold for that alone.
+void remark_on_before(const CameraConfig& camera, const LensResult& lens) {
+  if (!camera.calibration) return;
+  const CalibrationNote& before = *camera.calibration;
+  if (before.focal_sigma_px > 0 && before.focal_sigma_px < lens.focal_sigma_px)
+    log_warning(
+        camera.name,
+        fmt::format("its focal length was known better, {:.1f} px to {:.1f} px (by {}, {}): "
+                    "what was is kept as cameras.previous.toml",
+                    camera.intrinsics.fx_px, before.focal_sigma_px, before.method, before.date));
+  if (before.position_sigma_mm > 0)
+    log_warning(camera.name,
+                "stands where it was found with another lens: find its place again, "
+                "by vindu calibrate wand, wall or extrinsics");
+}
+
 int intrinsics(const RigCommand& command) {
   const Grid grid = grid_of(command);
   const Site site = load_site(command.common.wall_file);
@@ -114,6 +131,7 @@ int intrinsics(const RigCommand& command) {
   }
   if (!command.picture.empty())
     write_png(coverage_picture({{name, lens.coverage}}), command.picture);
+  remark_on_before(run.site.cameras[camera], lens);
   CameraCalibration found;
   found.camera = name;
   found.intrinsics = lens.intrinsics;
@@ -220,7 +238,8 @@ void add_calibrate_intrinsics(CLI::App& calibrate, Action& chosen) {
   app->add_option("--interval-s", command->lens.interval_s, "Between views (default: 0.5)")
       ->check(between(0.05, 60.0));
   app->add_option("--picture", command->picture, "What the camera has seen of its view")
-      ->type_name("FILE.png");
+      ->type_name("")
+      ->check(png_name());
   app->footer(
       "\nExamples:\n"
       "  vindu calibrate intrinsics --wall wall.toml --camera left\n"

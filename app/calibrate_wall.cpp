@@ -167,6 +167,8 @@ int calibrate_wall(const WallCommand& command) {
     moved.note = camera.calibration.value_or(CalibrationNote{});
     moved.note.method += moved.note.method.empty() ? "wall" : " + wall";
     moved.note.date = date_now();
+    moved.note.position_sigma_mm = std::hypot(moved.note.position_sigma_mm,
+                                              fit.sigma_mm_at(moved.room_from_camera->translation));
     found.push_back(std::move(moved));
   }
   if (run.truth && !command.common.json) print_truth(found, *run.truth);

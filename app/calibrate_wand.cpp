@@ -83,7 +83,7 @@ std::string table_of(const WandResult& result) {
 /// Thesis 3.4.2: in virtual mode what was found stands beside what is true.
 std::string truth_table(const WandResult& result, const HiddenTruth& truth) {
   std::string text =
-      fmt::format("\n{:<12}{:>22}{:>22}{:>16}{:>20}{:>16}\n", "the truth", "focal px (found)",
+      fmt::format("\n{:<12}{:>22}{:>18}{:>18}{:>22}{:>14}\n", "the truth", "focal px (found)",
                   "centre px off", "k1 (found)", "place off mm (sigma)", "turned deg");
   for (std::size_t i = 0; i < result.cameras.size(); ++i) {
     const WandCamera& found = result.cameras[i];
@@ -196,7 +196,8 @@ void add_calibrate_wand(CLI::App& calibrate, Action& chosen) {
   app->add_flag("--ignore-places", command->ignore_places,
                 "The cameras' places in the wall file are guesses: any size is believed");
   app->add_option("--picture", command->picture, "What each camera has seen of its view")
-      ->type_name("FILE.png");
+      ->type_name("")
+      ->check(png_name());
   app->footer(
       "\nExamples:\n"
       "  vindu calibrate wand --wall wall.toml --leds-mm 0,150,500 --picture seen.png\n"

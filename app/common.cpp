@@ -101,6 +101,14 @@ CLI::Validator between(double least, double largest) {
       limits);
 }
 
+CLI::Validator png_name() {
+  return CLI::Validator(
+      [](const std::string& file) {
+        return file.ends_with(".png") ? std::string() : "\"" + file + "\" does not end in .png";
+      },
+      "FILE.png");
+}
+
 CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value) {
   return app
       .add_option_function<std::string>(

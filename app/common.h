@@ -30,6 +30,9 @@ std::optional<Vec3> vec3_from(const std::string& text);
 /// A number within both limits. CLI11's own Range lets "nan" through.
 CLI::Validator between(double least, double largest);
 
+/// A file's name that ends in .png.
+CLI::Validator png_name();
+
 /// --place fit | life-size | as-is
 CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value);
 

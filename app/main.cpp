@@ -60,6 +60,17 @@ void add_commands(CLI::App& app, vindu::app::Action& chosen) {
   vindu::app::add_keys(app, chosen);
 }
 
+/// What to say where the first word is no command; else empty.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return "";
+  const std::string near = vindu::nearest_name(word, names);
+  return "there is no command " + word + "; " +
+         (near.empty() ? "vindu --help lists them" : "did you mean " + near + "?");
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Vindu turns a tiled display wall into a window: it shows a 3D model in the perspective of "
@@ -86,6 +97,10 @@ int run(int argc, char** argv) {
       app.parse(words);
     }
   } catch (const CLI::ParseError& error) {
+    if (const std::string word = unknown_command(app, argc, argv); !word.empty()) {
+      std::fprintf(stderr, "vindu: %s\n", word.c_str());
+      return 2;
+    }
     return app.exit(error) == 0 ? 0 : 2;
   }
   vindu::set_log_level(quiet     ? vindu::LogLevel::quiet

@@ -310,7 +310,9 @@ void add_plan(CLI::App& parent, Action& chosen) {
       ->check(between(0.1, 20.0));
   app->add_option("--ceiling", options->ceiling_m, "Height of the upper corners, metres")
       ->check(between(0.1, 20.0));
-  app->add_option("--out", options->out, "Picture (default: out/plan.png)")->type_name("FILE.png");
+  app->add_option("--out", options->out, "Picture (default: out/plan.png)")
+      ->type_name("")
+      ->check(png_name());
   app->add_flag("--json", options->json, "Figures as JSON");
   app->footer(
       "\nExamples:\n"

@@ -258,9 +258,10 @@ void add_replay(CLI::App& parent, Action& chosen) {
   app->add_option("--wall", command->wall_file,
                   "Wall file of its cameras (default: the one in the recording)")
       ->type_name("FILE");
-  app->add_option("--predict-ms", command->predict_ms,
-                  "With --track: the eye so long after each tick (default: 0)")
-      ->check(between(0.0, 1000.0));
+  CLI::Option* const predict =
+      app->add_option("--predict-ms", command->predict_ms,
+                      "With --track: the eye so long after each tick (default: 0)")
+          ->check(between(0.0, 1000.0));
   add_targets(*app, command->targets);
   app->add_flag("--skip-damage", command->skip_damage, "Read around what is damaged");
   app->footer(
@@ -271,7 +272,11 @@ void add_replay(CLI::App& parent, Action& chosen) {
       "  vindu replay walk.vrec --path walk.toml\n"
       "  vindu replay walk.vrec --text > walk.txt\n"
       "  vindu replay walk.txt --track --wall wall.toml --speed real\n");
-  app->callback([command, &chosen] { chosen = [command] { return replay(*command); }; });
+  app->callback([command, predict, &chosen] {
+    if (predict->count() > 0 && !command->track && command->path_file.empty())
+      throw CLI::RequiresError("--predict-ms", "--track or --path");
+    chosen = [command] { return replay(*command); };
+  });
 }
 
 }  // namespace vindu::app

@@ -1,5 +1,6 @@
 #include "tracker/point_fit.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 
@@ -24,6 +25,23 @@ PointFit fit_points(std::span<const Vec3> in_a, std::span<const Vec3> in_b, bool
     sum2 += (fit.rotation * in_b[i] + fit.translation - in_a[i]).squaredNorm();
   fit.rms = std::sqrt(sum2 / count);
   return fit;
+}
+
+double expected_error(std::span<const Vec3> fitted, double rms, const Vec3& point) {
+  const auto count = static_cast<double>(fitted.size());
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& each : fitted) middle += each / count;
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& each : fitted) spread += (each - middle) * (each - middle).transpose() / count;
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
+  double by_turns = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Vec3 axis = axes.eigenvectors().col(i);
+    const double fitted2 = spread.trace() - axes.eigenvalues()[i];  // mean square from the axis
+    by_turns += (point - middle).cross(axis).squaredNorm() / fitted2 / 3;
+  }
+  const double of_a_point2 = rms * rms * count / (count - 2);
+  return std::sqrt(of_a_point2 / count * (1 + by_turns));
 }
 
 Quat least_turn(const Vec3& from, const Vec3& to) {

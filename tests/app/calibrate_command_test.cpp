@@ -34,6 +34,24 @@ TEST_F(CalibrateCommand, ByAWandThenByTheWallFitsTheWall) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, AllOf(HasSubstr("corner of tile-"), HasSubstr("rms")));
   EXPECT_THAT(bytes_of(path("calibration/cameras.toml")), HasSubstr("wand + wall"));
+  // The first camera, which a wand takes as it is, is where the wall is as sure as touches are.
+  const auto placed = [&](const std::string& file) {
+    const auto lines = lines_of(bytes_of(path("calibration/" + file)));
+    return std::ranges::count_if(
+        lines, [](const std::string& line) { return line.starts_with("position_sigma_mm = "); });
+  };
+  EXPECT_EQ(placed("cameras.previous.toml"), 1);
+  EXPECT_EQ(placed("cameras.toml"), 2);
+}
+
+TEST_F(CalibrateCommand, OfALensThatWasKnownBetterSaysSo) {
+  ASSERT_EQ(vindu({"calibrate", "wand", "--wall", wall_}).exit_code, 0);
+  const ProcessResult result =
+      vindu({"calibrate", "intrinsics", "--wall", wall_, "--camera", "right"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, AllOf(HasSubstr("right: its focal length was known better"),
+                                HasSubstr("cameras.previous.toml"),
+                                HasSubstr("right: stands where it was found with another lens")));
 }
 
 TEST_F(CalibrateCommand, OfTheWallDrawsWhatItShowsPointByPoint) {

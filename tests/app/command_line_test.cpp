@@ -82,7 +82,13 @@ TEST_F(CommandLine, TellsTheVersion) {
 TEST_F(CommandLine, RefusesAnUnknownCommand) {
   const ProcessResult result = vindu({"rendre"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("rendre"));
+  EXPECT_THAT(result.err, HasSubstr("no command rendre; did you mean render?"));
+}
+
+TEST_F(CommandLine, RefusesToPredictWhereNothingIsTracked) {
+  const ProcessResult result = vindu({"replay", "walk.vrec", "--predict-ms", "30"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--predict-ms requires --track"));
 }
 
 class WrongCalls : public AppTest,

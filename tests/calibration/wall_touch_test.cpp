@@ -57,6 +57,9 @@ TEST(WallFit, BringsMovedCamerasBackToTheWall) {
     const Rigid3 found = fit.room_from_before * said[i].room_from_camera;
     const Rigid3& truth = wanted.site.cameras[i].room_from_camera;
     EXPECT_LT((found.translation - truth.translation).norm(), 0.05);
+    EXPECT_LT(1e3 * (found.translation - truth.translation).norm(),
+              3 * fit.sigma_mm_at(truth.translation));
+    EXPECT_LT(fit.sigma_mm_at(truth.translation), 50);
     EXPECT_LT(found.rotation.angularDistance(truth.rotation), radians(1));
   }
 }

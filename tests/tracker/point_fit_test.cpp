@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/random.h"
 #include "tests/core/matchers.h"
 #include "tests/core/random_walls.h"
 
@@ -52,6 +53,25 @@ TEST(PointFit, ReflectsWhenAskedAlone) {
   EXPECT_NEAR(fit_points(mirrored, in_b, true).rotation.determinant(), -1, 1e-12);
   EXPECT_GT(fit_points(mirrored, in_b).rms, 0.1);
   EXPECT_NEAR(fit_points(mirrored, in_b).rotation.determinant(), 1, 1e-12);
+}
+
+TEST(ExpectedError, IsThatOfPointsThatMoveByFitsOfNoisyPoints) {
+  vindu::Random noise(8);
+  const std::vector<Vec3> fitted = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, 0.5, 0}};
+  for (const Vec3& point : {Vec3(1, 0.5, 0), Vec3(0, 2, 4), Vec3(-3, 0, 1)}) {
+    constexpr int kFits = 4000;
+    double off2 = 0, left2 = 0;
+    for (int i = 0; i < kFits; ++i) {
+      std::vector<Vec3> noisy = fitted;
+      for (Vec3& each : noisy)
+        each += Vec3(noise.normal(0.01), noise.normal(0.01), noise.normal(0.01));
+      const PointFit fit = fit_points(fitted, noisy);
+      off2 += (fit.rotation * point + fit.translation - point).squaredNorm() / kFits;
+      left2 += fit.rms * fit.rms / kFits;
+    }
+    EXPECT_NEAR(expected_error(fitted, std::sqrt(left2), point), std::sqrt(off2),
+                0.03 * std::sqrt(off2));
+  }
 }
 
 TEST(LeastTurn, EndsWhereItShouldAndTurnsAboutNothingElse) {

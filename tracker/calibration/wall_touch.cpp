@@ -261,6 +261,7 @@ WallFit fit_wall(const std::vector<Touch>& touches, const std::vector<WallTarget
   WallFit result;
   result.room_from_before = Rigid3::from(fit.rotation, fit.translation);
   result.rms_mm = 1e3 * fit.rms;
+  result.targets_in_room = there;
   result.scale = length / length_seen;
   for (std::size_t i = 0; i < there.size(); ++i)
     result.residuals_mm.push_back(1e3 * (result.room_from_before * seen[i] - there[i]).norm());

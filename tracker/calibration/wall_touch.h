@@ -7,6 +7,7 @@
 
 #include "core/site.h"
 #include "tracker/calibration/capture.h"
+#include "tracker/point_fit.h"
 
 namespace vindu {
 
@@ -49,6 +50,12 @@ struct WallFit {
   double rms_mm = 0;                 ///< of the touches from their targets, after it
   double scale = 1;                  ///< of the targets' distances over the touches'
   std::vector<double> residuals_mm;  ///< of each touch
+  std::vector<Vec3> targets_in_room{};
+
+  /// Of a point that moves with the cameras, by the touches' errors alone.
+  double sigma_mm_at(const Vec3& x_in_room) const {
+    return expected_error(targets_in_room, rms_mm, x_in_room);
+  }
 };
 
 /// The touches in the order of the targets. Throws Error for fewer than three, for points on a
