@@ -42,14 +42,20 @@ std::string AskedFile::path() const { return runtime_folder(cluster_) + "/asked.
 
 std::optional<Asked> AskedFile::take() {
   if (session_.empty()) return std::nullopt;
+  std::string file;
   try {
-    const std::string file = path();
+    file = path();
+  } catch (const std::exception&) {
+    return std::nullopt;  // keep() says why
+  }
+  try {
     if (!fs::exists(file)) return std::nullopt;
     std::optional<Asked> asked = read_asked(file, session_);
-    fs::remove(file);
+    if (asked) fs::remove(file);
     return asked;
   } catch (const std::exception& error) {
     log_warning("master", std::string("what was asked for before is not known: ") + error.what());
+    remove();
     return std::nullopt;
   }
 }

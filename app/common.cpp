@@ -24,8 +24,7 @@ namespace {
 /// Throws CLI::ValidationError (called wrong) unless the text is three finite numbers with commas.
 Vec3 parse_vec3(const std::string& name, const std::string& text) {
   if (const auto value = vec3_from(text)) return *value;
-  throw CLI::ValidationError(
-      name, "\"" + text + "\" is not x,y,z in metres; for example " + name + " -1,0.1,2");
+  throw CLI::ValidationError(name, "\"" + text + "\" is not x,y,z: three numbers, as -1,0.1,2");
 }
 
 /// The show is made in the metres of the Tromsø wall; on another one it is scaled until its opening
@@ -99,6 +98,11 @@ CLI::Validator between(double least, double largest) {
         return good ? std::string() : "\"" + text + "\" is not a number from " + limits;
       },
       limits);
+}
+
+CLI::Validator not_empty() {
+  return CLI::Validator(
+      [](const std::string& text) { return text.empty() ? std::string("is empty") : ""; }, "");
 }
 
 CLI::Validator png_name() {

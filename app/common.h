@@ -30,6 +30,7 @@ std::optional<Vec3> vec3_from(const std::string& text);
 /// A number within both limits. CLI11's own Range lets "nan" through.
 CLI::Validator between(double least, double largest);
 
+CLI::Validator not_empty();
 /// A file's name that ends in .png.
 CLI::Validator png_name();
 

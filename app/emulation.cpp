@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace vindu::app {
 namespace {
 
@@ -52,6 +54,10 @@ void add_emulation(CLI::App& app, EmulationOptions& options) {
       ->type_name("good|busy|bad");
   app.add_flag("--kernel", options.kernel,
                "Linux' own driver disturbs emulated Wiimotes; the battery is read every 10 s");
+  app.add_option(
+         "--people", options.people,
+         "Who walk before emulated cameras, each with the helmet of a [[head]] (default: 1)")
+      ->check(CLI::Range(1, 16));
   app.add_option("--press", options.presses,
                  "BUTTON@SECONDS, as in home@2.5: pressed then, for 0.3 s, on the first emulated\n"
                  "Wiimote; to be given any number of times")
@@ -69,8 +75,16 @@ void apply(const EmulationOptions& options, Time now, EmulatedRoomOptions& room)
     room.presses.push_back(press_from(press, now).value());
 }
 
-EmulatedRoomOptions walking_room(const EmulationOptions& options, std::uint64_t seed, Time now) {
+EmulatedRoomOptions walking_room(const EmulationOptions& options, const Site& site,
+                                 std::uint64_t seed, Time now) {
+  if (options.people > site.heads.size())
+    throw Error({fmt::format("the wall file names {} for {} people",
+                             site.heads.size() == 1 ? "one head"
+                                                    : fmt::format("{} heads", site.heads.size()),
+                             options.people),
+                 "--people", "add a [[head]] with a layout of its own for each"});
   EmulatedRoomOptions room;
+  room.people = options.people;
   room.person.seed = room.wiimote.seed = seed;
   room.person.start = now;
   apply(options, now, room);

@@ -13,14 +13,18 @@ namespace vindu::app {
 struct EmulationOptions {
   std::string link = "good";
   bool kernel = false;
+  std::size_t people = 1;
   std::vector<std::string> presses;
 };
 
-/// --link good|busy|bad, --kernel, --press BUTTON@SECONDS; without effect on real devices.
+/// --link good|busy|bad, --kernel, --people N, --press BUTTON@SECONDS; without effect on real
+/// devices.
 void add_emulation(CLI::App& app, EmulationOptions& options);
 
-/// A room in which a person walks from now on; person and devices are of that seed.
-EmulatedRoomOptions walking_room(const EmulationOptions& options, std::uint64_t seed, Time now);
+/// A room in which people walk from now on; they and devices are of that seed. Throws Error for
+/// more people than the site has heads.
+EmulatedRoomOptions walking_room(const EmulationOptions& options, const Site& site,
+                                 std::uint64_t seed, Time now);
 
 /// Presses count from `now` on.
 void apply(const EmulationOptions& options, Time now, EmulatedRoomOptions& room);

@@ -122,7 +122,7 @@ void add_handed_on(CLI::App& app, LaunchCommand& command) {
       ->check(between(0.05, 1e8));
   hand_on(app, "--seed", command.master_options,
           "Of the emulated cameras and the person before them")
-      ->check(CLI::NonNegativeNumber);
+      ->check(between(0, 1e18));
   app.add_option_function<std::string>(
          "--shown",
          [&command](const std::string& folder) {
@@ -133,7 +133,7 @@ void add_handed_on(CLI::App& app, LaunchCommand& command) {
   hand_on(app, "--scale", command.tile_options, "Of the tiles' pictures, 1: their own pixels")
       ->check(between(0.01, 1.0));
   hand_on(app, "--device", command.tile_options, "Which EGL device draws without a display")
-      ->check(CLI::NonNegativeNumber);
+      ->check(between(0, 1000));
 }
 
 }  // namespace
@@ -142,7 +142,8 @@ void add_launch(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<LaunchCommand>();
   CLI::App* app = parent.add_subcommand("launch", "Lights a wall: the master and all tiles");
   app->add_option("MODEL", command->model,
-                  "Any model that Assimp reads (default: the wall file's, or the show)");
+                  "Any model that Assimp reads (default: the wall file's, or the show)")
+      ->check(not_empty());
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
   app->add_option("--tiles-per-process", command->tiles_per_process,

@@ -68,9 +68,11 @@ void print_plan(const HostRequest& request, const Site& site, const HostOptions&
 Site load_site_with_hosts(const std::string& wall_file) {
   Site site = load_site(wall_file);
   if (!has_hosts(site))
-    throw Error({"names no master in its [cluster]: the wall is on this machine alone",
-                 wall_file.empty() ? "the default wall file" : wall_file,
-                 "name the master's host there"});
+    throw Error(
+        {"names no master in its [cluster]: the wall is on this machine alone",
+         wall_file.empty() ? "the default wall file" : wall_file,
+         "vindu launch, as long as it runs, shows its lines and starts again what dies; end "
+         "it by vindu stop. For a wall over hosts name the master's host there"});
   return site;
 }
 

@@ -13,19 +13,18 @@
 #include "app/eye_source.h"
 #include "app/remote_eye.h"
 #include "app/service.h"
-#include "app/stage.h"
 #include "app/still_eye.h"
 #include "app/stop_signals.h"
 #include "app/touch_eye.h"
 #include "app/tracker_events.h"
 #include "app/wall_console.h"
 #include "app/wall_figures.h"
+#include "app/wall_scenes.h"
 #include "cluster/console.h"
 #include "cluster/dds.h"
 #include "cluster/wall_master.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "renderer/clips.h"
 #include "renderer/resources.h"
 
 namespace vindu::app {
@@ -45,13 +44,15 @@ struct MasterCommand {
   bool json = false;
 };
 
-/// So long a master that has just come listens whether there is another one, before its first
-/// frame.
-constexpr Duration kListen = std::chrono::milliseconds(100);
+/// So long a master listens whether there is an older one, before it says anything: keys take time.
+/// One that is started again after a crash has done so before.
+constexpr Duration kListen = std::chrono::seconds(1), kListenWithKeys = std::chrono::seconds(3);
 /// One that finds an older one within this time gives way.
 constexpr Duration kYoung = std::chrono::seconds(10);
 /// After this time of its life what it goes on with is not what the one before died of.
 constexpr Duration kSettled = std::chrono::seconds(10);
+/// An exit code for whoever starts it again when it ends: that would be of no use.
+constexpr int kInVain = 3;
 
 /// Larger than that of any master before, as long as the host's clock goes forward.
 std::uint64_t new_epoch() {
@@ -63,7 +64,7 @@ class MasterRun {
  public:
   MasterRun(const MasterCommand& command, const Site& site)
       : site_(site),
-        room_(site, clock_, walking_room(command.emulation, command.seed, clock_.now())),
+        room_(site, clock_, walking_room(command.emulation, site, command.seed, clock_.now())),
         transport_(network_of(site, Role::master)),
         bus_(transport_.join({self_, kTells, kJoins})),
         wall_(*bus_, {.epoch = epoch_,
@@ -80,43 +81,49 @@ class MasterRun {
         figures_(tile_names(site.wall), display_latency(), command.csv_file) {
     if (const auto before = kept_.take()) {
       asked_ = *before;
-      log_info("master", "goes on with what was asked for before it ended");
+      was_before_ = true;
+      log_info("master", asked_ == launched_ ? "begins again as it was launched"
+                                             : "goes on with what was asked for before it ended");
+      keep(launched_);  // for the next one, should it die of that
     }
-    set_mode(asked_.mode);
-    staging_.start({asked_.model, asked_.clip, asked_.place}, site);
+    enter_mode();
+    scenes_.emplace(site_, wall_, desk_, asked_, launched_);
   }
 
-  /// Throws Error when the first scene cannot be read, or another master was there first.
+  /// Throws Error when the first scene cannot be read.
   const WallFigures& run(const StopSignals& signals, std::optional<double> seconds_long) {
-    const Time start = clock_.now();
-    Time tick = start;
+    const Time start = clock_.now(), speaks = start + listens();
+    Time tick = speaks;
     while (!stopped_ && !signals.came_within(Duration::zero())) {
       const Time now = clock_.now();
       sign_of_life_.give(now);
-      if (seconds_long && seconds(now - start) > *seconds_long) break;
+      if (seconds_long && seconds(now - speaks) > *seconds_long) break;
       wall_.poll(now);
-      expect_no_other(now - start);
+      if (gives_way(now - start)) break;
       note_events();
-      follow_scenes();
+      if (now >= speaks) scenes_->follow();
       for (const CommandMessage& command : desk_.take()) answer(command);
       answer_captures();
-      if (wall_.open() && now >= std::max(tick, start + kListen)) {
+      if (wall_.open() && now >= tick) {
         on_tick(now);
-        const auto passed = static_cast<std::int64_t>(seconds(now - start) * site_.rate_hz + 1e-6);
-        tick = start + from_seconds(static_cast<double>(passed + 1) / site_.rate_hz);
+        const auto passed = static_cast<std::int64_t>(seconds(now - speaks) * site_.rate_hz + 1e-6);
+        tick = speaks + from_seconds(static_cast<double>(passed + 1) / site_.rate_hz);
       }
-      Time wake = wall_.open() ? std::max(tick, start + kListen) : wall_.wake_time();
-      if (staging_.running()) wake = std::min(wake, now + std::chrono::milliseconds(5));
+      Time wake = wall_.open() ? tick : wall_.wake_time();
+      if (scenes_->reading()) wake = std::min(wake, now + std::chrono::milliseconds(5));
       bus_->wait(kHears, wake);
-      if (asked_ != launched_ && !remembered_ && now - start > kSettled) remember();
+      remember(now - start);
     }
-    kept_.remove();
-    figures_.length = clock_.now() - start;
+    if (!older_) kept_.remove();
+    figures_.length = clock_.now() - speaks;
     if (stopped_) answer_stragglers();
     figures_.tiles = wall_.tiles();
     figures_.end();
     return figures_;
   }
+
+  /// A master to which it gave way.
+  const std::optional<Participant>& older() const { return older_; }
 
  private:
   static constexpr Topics kHears = {Topic::ready, Topic::tile_status, Topic::presence,
@@ -135,18 +142,39 @@ class MasterRun {
     }
   }
 
-  void expect_no_other(Duration age) const {
-    const auto other = wall_.other_master();
-    if (!other || other->epoch == 0 || other->epoch > epoch_ || age > kYoung) return;
-    throw Error({"another master of the wall \"" + site_.cluster.name + "\" runs on " + other->host,
-                 "master",
-                 "end that one (vindu stop), or give this wall another name in its [cluster]"});
+  Duration listens() const {
+    if (was_before_) return Duration::zero();
+    return site_.cluster.keys.empty() ? kListen : kListenWithKeys;
   }
 
-  /// Kept as it was asked for last.
-  void remember() {
-    kept_.keep(asked_);
-    remembered_ = true;
+  /// To a master that was there before: it is not to be disturbed by one that is started by
+  /// mistake.
+  bool gives_way(Duration age) {
+    if (age < kYoung) older_ = wall_.older_master();
+    return older_.has_value();
+  }
+
+  /// Kept as it was asked for last; of a master that was started again not before it has settled.
+  void remember(Duration age) {
+    if (kept_as_ == asked_ || (was_before_ && age < kSettled)) return;
+    keep(asked_);
+  }
+
+  void keep(const Asked& asked) {
+    kept_.keep(asked);
+    kept_as_ = asked;
+  }
+
+  /// As the one before had it. A camera may not be there any more.
+  void enter_mode() {
+    try {
+      set_mode(asked_.mode);
+    } catch (const Error& error) {
+      if (asked_.mode == launched_.mode) throw;
+      log_warning("master",
+                  fmt::format("{}; it begins in the mode {}", error.what(), launched_.mode));
+      set_mode(asked_.mode = launched_.mode);
+    }
   }
 
   void set_mode(const std::string& mode) {
@@ -187,27 +215,17 @@ class MasterRun {
 
   /// Finds the eye, and begins a frame where one is due.
   void on_tick(Time now) {
-    if (wall_.shown_scene() != staged_scene_) {
-      staged_scene_ = wall_.shown_scene();
-      if (const auto found = stages_.find(staged_scene_); found != stages_.end())
-        stage_ = found->second;
-      glide_.reset();
-      note_shown();
-      if (asked_.middle_in_scene)
-        stage_.navigation.wall_from_scene.translation =
-            stage_.translation_to(*asked_.middle_in_scene);
-    }
-    glide(now);
+    const Stage& stage = scenes_->at(now);
     const Time photon = now + figures_.to_light() + display_latency();
     touch_.hear(now);
     const EyeNow eye = eyes_->at(now, photon);
     eye_in_wall_ = eye.eye_in_wall;
     const FrameState state = {
         .photon_time = photon,
-        .eye_in_wall = still_.at(eye, stage_.corners_in_wall(), now),
-        .navigation = stage_.navigation,
-        .animation_time_s = stage_.plays() ? seconds(now - stage_.clip_start) : 0,
-        .clip = stage_.clip,
+        .eye_in_wall = still_.at(eye, stage.corners_in_wall(), now),
+        .navigation = stage.navigation,
+        .animation_time_s = stage.plays() ? seconds(now - stage.clip_start) : 0,
+        .clip = stage.clip,
         .mode = eye.mode,
         .overlays = (asked_.overlay ? std::uint32_t{kStatistics} : 0) |
                     (captures_.empty() ? 0 : std::uint32_t{kKeepPicture}),
@@ -263,69 +281,6 @@ class MasterRun {
     }
   }
 
-  /// A scene that can be read goes out to the tiles; its place counts from the frame on in which
-  /// they change to it.
-  void follow_scenes() {
-    if (!staging_.done()) return;
-    try {
-      const Staging::Staged staged = staging_.take();
-      const auto& [model, clip, place] = staging_.wish();
-      const std::uint64_t revision =
-          wall_.show(path_for_tiles(model, site_), staged.sha256, place.value_or(Placement::fit));
-      stages_[revision] = staged.stage;
-      reply(coming_scene_.asked, false,
-            "another scene was asked for before all tiles had this one");
-      coming_scene_ = {asked_scene_, revision, staging_.wish()};
-    } catch (const Error& error) {
-      if (asked_scene_.request != 0)
-        reply(asked_scene_, false, error.what());
-      else
-        begin_as_launched(error);
-    }
-    asked_scene_ = {};
-  }
-
-  /// What the master before showed may not be there any more. Throws the error where this is what
-  /// it was launched with.
-  void begin_as_launched(const Error& error) {
-    if (asked_ == launched_) throw error;
-    log_warning("master", fmt::format("{}; it begins as it was launched", error.what()));
-    asked_ = launched_;
-    set_mode(asked_.mode);
-    staging_.start({asked_.model, asked_.clip, asked_.place}, site_);
-  }
-
-  /// The scene that was asked for is the one that is shown now.
-  void note_shown() {
-    if (coming_scene_.revision != staged_scene_) return;
-    if (coming_scene_.asked.request != 0) {
-      const auto& [model, clip, place] = coming_scene_.wish;
-      asked_.model = model;
-      asked_.clip = clip;
-      asked_.place = place;
-      asked_.middle_in_scene.reset();
-      remember();
-    }
-    answer_show();
-    coming_scene_ = {};
-  }
-
-  /// Who asked for it is told which tiles cannot.
-  void answer_show() {
-    std::vector<std::string> failures;
-    std::size_t shows = 0;
-    for (const auto& [tile, report] : wall_.tiles()) {
-      if (!report.present || !report.status) continue;
-      const bool failed = report.status->state == TileState::failed;
-      shows += !failed;
-      if (failed) failures.push_back(fmt::format("{}: {}", tile, report.status->error));
-    }
-    reply(coming_scene_.asked, failures.empty(),
-          failures.empty() ? ""
-                           : fmt::format("{} of {} tiles show it; {}", shows,
-                                         shows + failures.size(), fmt::join(failures, "; ")));
-  }
-
   void reply(const CommandMessage& command, bool done, const std::string& text) {
     if (command.request != 0) desk_.answer(command, done, text);
   }
@@ -341,12 +296,9 @@ class MasterRun {
   void obey(const CommandMessage& command) {
     switch (command.verb) {
       case Verb::show:
-        if (staging_.running())
-          return reply(command, false, "another scene is being read; ask again");
-        asked_scene_ = command;
-        return staging_.start({command.argument, command.clip, std::nullopt}, site_);
+        return scenes_->show(command);
       case Verb::clip:
-        play(command.argument);
+        scenes_->play(command.argument, clock_.now());
         break;
       case Verb::mode:
         set_mode(command.argument);
@@ -356,7 +308,7 @@ class MasterRun {
         stopped_ = true;
         break;
       case Verb::go_to:
-        go_to(command.argument);
+        scenes_->go_to(command.argument, clock_.now());
         break;
       case Verb::capture:
         return captures_.push_back(command);
@@ -366,31 +318,7 @@ class MasterRun {
         note(command, asked_);
         break;
     }
-    remember();
     reply(command, true, "");
-  }
-
-  /// From its beginning, in the frames from now on.
-  void play(const std::string& clip) {
-    if (stage_.model.empty()) throw Error({"shows no model yet", "the wall", "ask again"});
-    stage_.clip = find_clip(stage_.clips, clip, stage_.model);
-    stage_.clip_start = clock_.now();
-    asked_.clip = clip;
-  }
-
-  /// "x,y,z" of the scene, to the middle of the wall, within a second.
-  void go_to(const std::string& argument) {
-    const auto point = vec3_from(argument);
-    if (!point) throw Error({"\"" + argument + "\" is no point", "goto", "write x,y,z"});
-    glide_.emplace(stage_.navigation.wall_from_scene.translation, stage_.translation_to(*point),
-                   clock_.now());
-    asked_.middle_in_scene = point;
-  }
-
-  void glide(Time now) {
-    if (!glide_) return;
-    stage_.navigation.wall_from_scene.translation = glide_->at(now);
-    if (glide_->done(now)) glide_.reset();
   }
 
   Duration display_latency() const { return from_seconds(1e-3 * site_.viewer.display_latency_ms); }
@@ -409,18 +337,7 @@ class MasterRun {
   HeadGestures gestures_;
   std::unique_ptr<EyeSource> path_, tracked_;  // cameras are opened once, by the mode track
   EyeSource* eyes_ = nullptr;
-  Staging staging_;
-  CommandMessage asked_scene_;  // that is being read; request 0: the first one
-  struct ComingScene {          // that tiles load
-    CommandMessage asked{};     // answered when they show it
-    std::uint64_t revision = 0;
-    Staging::Wish wish{};
-  } coming_scene_;
-  std::map<std::uint64_t, Stage> stages_;  // by scene
-  std::uint64_t staged_scene_ = 0;
-  Stage stage_;  // of the scene that is shown
   StillEye still_{site_};
-  std::optional<Glide> glide_;            // of the stage's wall_from_scene
   std::vector<CommandMessage> captures_;  // for the next frame
   struct Captured {
     CapturedFrame frame;
@@ -430,8 +347,11 @@ class MasterRun {
   bool elsewhere_;
   Asked asked_;
   const Asked launched_;
+  std::optional<WallScenes> scenes_;
   AskedFile kept_;
-  bool remembered_ = false;
+  bool was_before_ = false;  // a master of this launch, which crashed
+  std::optional<Asked> kept_as_;
+  std::optional<Participant> older_;  // to which it gives way
   bool stopped_ = false;
   SignOfLife sign_of_life_;
   WallFigures figures_;
@@ -442,10 +362,18 @@ int master(const MasterCommand& command) {
   const StopSignals signals;
   MasterRun run(command, site);
   const WallFigures& figures = run.run(signals, command.seconds);
+  if (run.older()) {
+    log_warning("master",
+                fmt::format("another master of the wall \"{}\" runs on {}: end that one (vindu "
+                            "stop), or give this wall another name in its [cluster]",
+                            site.cluster.name, run.older()->host));
+    return kInVain;
+  }
   std::fputs((command.json ? figures.json() : figures.table()).c_str(), stdout);
-  if (!command.seconds || figures.shown()) return 0;
+  const bool in_time = command.seconds && seconds(figures.length) >= *command.seconds;
+  if (!in_time || figures.shown()) return 0;
   log_warning("master", "no tile has shown anything: see what tiles say, or vindu status");
-  return 1;
+  return kInVain;
 }
 
 }  // namespace

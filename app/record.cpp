@@ -149,7 +149,8 @@ int record(const RecordCommand& command) {
   refuse_video(site);
   const StopSignals signals;
   MonotonicClock clock;
-  const EmulatedRoom room(site, clock, walking_room(command.emulation, command.seed, clock.now()));
+  const EmulatedRoom room(site, clock,
+                          walking_room(command.emulation, site, command.seed, clock.now()));
   const RecordingInfo info = describe(wall_file, site, clock);
   const std::string file = command.out.empty() ? default_name() : command.out;
   RecordingWriter writer(file, info,

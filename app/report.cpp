@@ -66,8 +66,8 @@ std::vector<Row> error_rows(const RunReport& report) {
                        &FrameRecord::shows_the_tracked_eye);
   if (!report.truth || seen.empty()) return {};
   const auto at_photon = spread_over(seen, [&](const FrameRecord& frame) {
-    return 1e3 *
-           (frame.state.eye_in_wall - report.truth->eye_in_wall(frame.state.photon_time)).norm();
+    const Person& person = followed_person(*report.truth, frame);
+    return 1e3 * (frame.state.eye_in_wall - person.eye_in_wall(frame.state.photon_time)).norm();
   });
   return {{"eye error when the light leaves", "eye_error_mm", at_photon}};
 }
@@ -168,6 +168,11 @@ std::string table_of(const RunReport& report) {
     text += fmt::format("  {:<34}{} drawn frames: the eye was behind a tile's plane\n",
                         "black tiles in", black);
   return text;
+}
+
+const Person& followed_person(const EmulatedRoom& room, const FrameRecord& frame) {
+  const auto head = static_cast<std::size_t>(frame.pose ? frame.pose->object : 0);
+  return room.person(std::min(head, room.people() - 1));
 }
 
 std::string json_of(const RunReport& report) {

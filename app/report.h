@@ -6,7 +6,7 @@
 
 #include "app/cameras.h"
 #include "app/frame_loop.h"
-#include "simulator/person.h"
+#include "simulator/emulated_room.h"
 #include "tracker/tracker.h"
 
 namespace vindu::app {
@@ -22,13 +22,16 @@ Spread spread_of(std::vector<double> values);
 
 struct RunReport {
   LoopResult loop;
-  const Person* truth = nullptr;     ///< where there is one; the eye error is measured against it
-  const Tracker* tracker = nullptr;  ///< where one ran
-  std::vector<CameraState> cameras;  ///< those that may go and come back
+  const EmulatedRoom* truth = nullptr;  ///< where there is one: eye errors are against its people
+  const Tracker* tracker = nullptr;     ///< where one ran
+  std::vector<CameraState> cameras;     ///< those that may go and come back
   double scale = 1;
   SizePx wall_px;
   std::string gl;
 };
+
+/// Who the frame is for; the first where nobody is tracked.
+const Person& followed_person(const EmulatedRoom& room, const FrameRecord& frame);
 
 /// For people.
 std::string table_of(const RunReport& report);

@@ -4,9 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/error.h"
+#include "core/sha256.h"
 
 namespace vindu::app {
 namespace {
@@ -19,7 +22,9 @@ std::string users_folder() {
 
 /// Makes it for this user alone. One that is there already must be so: others may have made it.
 void make_private(const std::string& folder) {
-  mkdir(folder.c_str(), 0700);
+  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    throw Error({std::string("cannot be made: ") + std::strerror(errno), folder,
+                 "set XDG_RUNTIME_DIR to a folder of yours"});
   struct stat state {};
   const bool own = lstat(folder.c_str(), &state) == 0 && S_ISDIR(state.st_mode) &&
                    state.st_uid == geteuid() && (state.st_mode & 022) == 0;
@@ -39,7 +44,12 @@ std::string runtime_folder(const ClusterConfig& cluster) {
 }
 
 std::string runtime_folder_name(const ClusterConfig& cluster) {
-  return fmt::format("vindu-{}-{}", cluster.domain, cluster.name);
+  constexpr std::size_t kLongest = 100;  // of a name that a file may have as well
+  const std::string& name = cluster.name;
+  const std::string short_name =
+      name.size() <= kLongest ? name
+                              : name.substr(0, kLongest) + "-" + sha256_of_text(name).substr(0, 16);
+  return fmt::format("vindu-{}-{}", cluster.domain, short_name);
 }
 
 }  // namespace vindu::app

@@ -6,9 +6,8 @@
 
 namespace vindu::app {
 
-/// Says "READY=1" once it works and "WATCHDOG=1" every second as long as it does, from the thread
-/// that does the work: one that hangs is started anew. Never waits; nothing happens where nobody
-/// asked.
+/// Says that it works, every second, from the thread that does the work: one that hangs is started
+/// anew. Never waits; nothing happens where nobody asked.
 class SignOfLife {
  public:
   void give(Time now);

@@ -79,8 +79,9 @@ void check_clock(const SimulateOptions& options, const Site& site) {
                    "leave --clock out, or use emulated cameras or video files"});
 }
 
-EmulatedRoomOptions room_options(const SimulateOptions& options, const Clock& clock) {
-  EmulatedRoomOptions room = walking_room(options.emulation, options.seed, clock.now());
+EmulatedRoomOptions room_options(const SimulateOptions& options, const Site& site,
+                                 const Clock& clock) {
+  EmulatedRoomOptions room = walking_room(options.emulation, site, options.seed, clock.now());
   room.wiimote.noise_px = options.noise_px;
   return room;
 }
@@ -153,8 +154,8 @@ Run assemble(const SimulateOptions& options) {
                            : fluid_scale([&](double at) { return frame_s(run, at); }, budget_s);
   run.wall = std::make_unique<WallRenderer>(run.site.wall, scale, live_look());
   run.wall->show(run.loaded.packed);
-  run.room =
-      std::make_unique<EmulatedRoom>(run.site, *run.clock, room_options(options, *run.clock));
+  run.room = std::make_unique<EmulatedRoom>(run.site, *run.clock,
+                                            room_options(options, run.site, *run.clock));
   run.eyes = make_eyes(run);
   return run;
 }
@@ -171,12 +172,12 @@ void present_in(const WallRenderer& wall, const Picture& picture, int x, int y, 
 
 /// Where the room's picture shows the head: the person's own, or on a path one that faces the wall
 /// with its eye there.
-Rigid3 head_in_picture(const Run& run, const FrameState& state) {
+Rigid3 head_in_picture(const Run& run, const FrameRecord& frame) {
   if (run.tracker && all_emulated(run.site))
-    return run.room->person().room_from_head(state.photon_time);
+    return followed_person(*run.room, frame).room_from_head(frame.state.photon_time);
   const Rigid3& room_from_wall = run.site.wall.room_from_wall;
   return {Quat::Identity(),
-          room_from_wall * state.eye_in_wall - run.site.heads.front().eye_in_head};
+          room_from_wall * frame.state.eye_in_wall - run.site.heads.front().eye_in_head};
 }
 
 /// The window: the room above, the wall's picture below.
@@ -188,7 +189,7 @@ class WindowPainter {
         statistics_(window, run.site.rate_hz) {}
   WindowStatistics& statistics() { return statistics_; }
   void paint(const FrameRecord& record) {
-    room_.draw(*run_.wall, head_in_picture(run_, record.state));
+    room_.draw(*run_.wall, head_in_picture(run_, record));
     const SizePx size = run_.surface->size();
     const int strip = size.height * 2 / 5;
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -280,7 +281,7 @@ Moment picture_moment(Run& run, WallRenderer& wall, RoomView& room, const std::s
                       const FrameRecord& frame) {
   wall.draw(frame.state);
   const Vec3& eye = frame.state.eye_in_wall;
-  room.draw(wall, head_in_picture(run, frame.state));
+  room.draw(wall, head_in_picture(run, frame));
   room.picture().make_mipmaps();
   return {.title = title,
           .caption = fmt::format("eye {:.2f} m {} of the middle, {:.2f} m before the wall",
@@ -337,7 +338,7 @@ int simulate(const SimulateOptions& options) {
   save_sheet(run, result);
   const RunReport report{
       .loop = result,
-      .truth = run.tracker && all_emulated(run.site) ? &run.room->person() : nullptr,
+      .truth = run.tracker && all_emulated(run.site) ? run.room.get() : nullptr,
       .tracker = run.tracker,
       .cameras = run.cameras ? run.cameras->states() : std::vector<CameraState>{},
       .scale = static_cast<double>(run.wall->layout().tiles.front().size.width) /

@@ -12,6 +12,7 @@
 #include "app/wall_console.h"
 #include "cluster/dds.h"
 #include "cluster/wall_view.h"
+#include "core/error.h"
 #include "core/log.h"
 
 namespace vindu::app {
@@ -54,29 +55,33 @@ std::string json_of(const std::optional<ReportMessage>& report) {
 std::string json_of(const TileNow& tile) {
   const StatusMessage& last = tile.last;
   return fmt::format(
-      R"({{"tile": {}, "host": {}, "state": {}, "frame": {}, "fps": {:.2f}, "late_frames": {}, )"
+      R"({{"tile": {}, "host": {}, "state": {}, "runs_twice_on": {}, "frame": {}, "fps": {:.2f}, )"
+      R"("late_frames": {}, )"
       R"("restarts": {}, "scene": {}, "renderer": {}, "version": {}, "error": {}, )"
       R"("draw_ms": {:.3f}, "gpu_ms": {:.3f}, "triangles": {}, "culled_share": {:.4f}, )"
       R"("memory_bytes": {:.0f}, "report": {}}})",
-      json_text(tile.name), json_text(last.host), json_text(tile.state), last.presented,
-      last.frames_per_s, last.late_frames, tile.restarts, last.scene_revision,
-      json_text(last.renderer), json_text(last.version), json_text(last.error), last.draw.draw_ms,
-      last.draw.gpu_ms, last.draw.triangles, last.draw.culled_share, last.draw.memory_bytes,
-      json_of(tile.report));
+      json_text(tile.name), json_text(last.host), json_text(tile.state),
+      tile.twin.empty() ? "null" : json_text(tile.twin), last.presented, last.frames_per_s,
+      last.late_frames, tile.restarts, last.scene_revision, json_text(last.renderer),
+      json_text(last.version), json_text(last.error), last.draw.draw_ms, last.draw.gpu_ms,
+      last.draw.triangles, last.draw.culled_share, last.draw.memory_bytes, json_of(tile.report));
 }
 
 /// One line.
 std::string json_of(const WallNow& wall) {
-  std::string tiles, trackers;
+  std::string tiles, trackers, complaints;
   for (const TileNow& tile : wall.tiles) tiles += (tiles.empty() ? "" : ", ") + json_of(tile);
   for (const std::string& name : wall.trackers)
     trackers += (trackers.empty() ? "" : ", ") + json_text(name);
-  return fmt::format(R"({{"good": {}, "master": {}, "epoch": {}, "frame": {}, "fps": {:.2f}, )"
-                     R"("pattern": {}, "blank": {}, "active_tiles": {}, "report": {}, )"
-                     R"("trackers": [{}], "tiles": [{}]}})",
-                     wall.good(), wall.master ? json_text(wall.master->host) : "null", wall.epoch,
-                     wall.frame, wall.frames_per_s, json_text(std::string(name_of(wall.pattern))),
-                     wall.blank, wall.active_tiles, json_of(wall.report), trackers, tiles);
+  for (const std::string& line : wall.complaints)
+    complaints += (complaints.empty() ? "" : ", ") + json_text(line);
+  return fmt::format(
+      R"({{"good": {}, "complaints": [{}], "master": {}, "epoch": {}, "frame": {}, "fps": {:.2f}, )"
+      R"("pattern": {}, "blank": {}, "active_tiles": {}, "report": {}, )"
+      R"("trackers": [{}], "tiles": [{}]}})",
+      wall.good(), complaints, wall.master ? json_text(wall.master->host) : "null", wall.epoch,
+      wall.frame, wall.frames_per_s, json_text(std::string(name_of(wall.pattern))), wall.blank,
+      wall.active_tiles, json_of(wall.report), trackers, tiles);
 }
 
 void print(const StatusCommand& command, const WallNow& wall) {
@@ -86,7 +91,8 @@ void print(const StatusCommand& command, const WallNow& wall) {
     const bool rewrites = command.watch && isatty(STDOUT_FILENO) == 1;
     fmt::print("{}{}", rewrites ? "\x1b[H\x1b[J" : "", table_of(wall));
   }
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0)
+    throw Error({"cannot be written", "the standard output", "is its disk full?"});
 }
 
 /// Where no frame and no tile is heard. A master may be known to be there: names are no secret.

@@ -117,7 +117,7 @@ std::string words_of(const GestureEvent& event, const Site& site) {
 }
 
 void print_table(const Tracker& tracker, const Cameras& cameras, const Site& site,
-                 Duration length) {
+                 const std::string& misfit, Duration length) {
   const TrackerCounts& counts = tracker.counts();
   const double frames = static_cast<double>(std::max<std::uint64_t>(counts.frames, 1));
   fmt::print("\n{} frames in {:.1f} s, {} reports of {} cameras\n", counts.frames, seconds(length),
@@ -131,8 +131,7 @@ void print_table(const Tracker& tracker, const Cameras& cameras, const Site& sit
     fmt::print("  {:<10}{}, {} reflections masked{}\n", site.cameras[i].name,
                health[i].device_time ? "times by its own clock" : "times by arrival",
                health[i].masks, health[i].moved ? ", was MOVED: calibrate it again" : "");
-  if (const std::string text = misfit_text(site, tracker); !text.empty())
-    fmt::print("  {}\n", text);
+  if (!misfit.empty()) fmt::print("  {}\n", misfit);
   for (const CameraState& camera : cameras.states())
     if (camera.gaps)
       fmt::print("  {:<10}gaps: {}; {}{}\n", camera.name, vindu::text_of(*camera.gaps),
@@ -145,7 +144,8 @@ int track(const TrackCommand& command) {
   const auto targets = targets_from(command.targets);
   const StopSignals signals;
   MonotonicClock clock;
-  const EmulatedRoom room(site, clock, walking_room(command.emulation, command.seed, clock.now()));
+  const EmulatedRoom room(site, clock,
+                          walking_room(command.emulation, site, command.seed, clock.now()));
   const Cameras cameras(site, room, clock);
   Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
   CameraWarnings warnings(site);
@@ -180,7 +180,8 @@ int track(const TrackCommand& command) {
     }
   }
   if (terminal) std::fputs("\n", stderr);
-  if (!command.json) print_table(tracker, cameras, site, clock.now() - begin);
+  if (!command.json)
+    print_table(tracker, cameras, site, warnings.misfit(tracker), clock.now() - begin);
   return 0;
 }
 
@@ -192,8 +193,10 @@ void add_track(CLI::App& parent, Action& chosen) {
       "track", "The tracking server without a picture: cameras in, poses and gestures out");
   app->add_option("--wall", command->wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
-  app->add_flag("--json", command->json,
-                "A line of JSON for each pose, gesture, press of a button, and change of a camera");
+  app->add_flag(
+      "--json", command->json,
+      "A line of JSON for each pose, gesture, press of a button, change of a camera, and of what\n"
+      "does not fit: disagreement_px between cameras, and the share that heads look larger");
   app->add_flag("--publish", command->publish,
                 "Poses go to the wall's master, by [cluster] of the wall file; gestures and\n"
                 "presses of buttons to all who listen (vindu events)");

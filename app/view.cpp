@@ -163,7 +163,7 @@ int view(const ViewOptions& options) {
   const auto* tracked = dynamic_cast<const TrackedEye*>(eyes.get());
   const RunReport report{
       .loop = result,
-      .truth = tracked && all_emulated(viewer.site()) ? &room.person() : nullptr,
+      .truth = tracked && all_emulated(viewer.site()) ? &room : nullptr,
       .tracker = tracked ? &tracked->tracker() : nullptr,
       .cameras = tracked ? tracked->cameras().states() : std::vector<CameraState>{},
       .wall_px = window->size(),

@@ -53,7 +53,8 @@ void add_show(CLI::App& parent, Action& chosen) {
   CLI::App* app = parent.add_subcommand("show", "Shows another model on a running wall");
   app->add_option("MODEL", command->argument,
                   "Any model that Assimp reads, at this path on all hosts")
-      ->required();
+      ->required()
+      ->check(not_empty());
   add_clip(*app, command->clip);
   add_common(*app, *command);
   app->footer(
@@ -73,7 +74,8 @@ void add_clip_command(CLI::App& parent, Action& chosen) {
       "clip", "Plays another animation of the model on a running wall, from its beginning");
   app->add_option("CLIP", command->argument,
                   "Its name or number, as vindu pack lists them, or rest: none")
-      ->required();
+      ->required()
+      ->check(not_empty());
   add_common(*app, *command);
   app->footer("\nExamples:\n  vindu clip Walk\n  vindu clip 2 --wall wall.toml\n");
   app->callback([command, &chosen] {

@@ -10,6 +10,7 @@ namespace vindu::app {
 namespace {
 
 std::string row(const char* name, const RunSpread& values) {
+  if (values.empty()) return fmt::format("  {:<24}{:>9}{:>9}{:>9}\n", name, "-", "-", "-");
   const Quantiles spread = values.quantiles();
   return fmt::format("  {:<24}{:>9.3f}{:>9.3f}{:>9.3f} ms\n", name, spread.p50, spread.p99,
                      spread.max);
@@ -67,6 +68,7 @@ void WallFigures::write(std::uint64_t number, const Begun& begun, const FrameSke
 
 void WallFigures::add(const FrameSkew& skew, Time now) {
   const auto found = begun_.find(skew.number);
+  shown_ |= !skew.swaps.empty();
   if (found == begun_.end()) return;  // too late
   if (skew.swaps.size() >= 2) skews_ms_.add(milliseconds(skew.skew()));
   forget_before(skew.number);

@@ -44,7 +44,7 @@ class WallFigures {
 
   std::uint64_t frames() const { return frames_; }
   /// Whether any tile showed one.
-  bool shown() const { return !to_light_ms_.empty(); }
+  bool shown() const { return shown_; }
   /// From a tick to the last tile's swap: a running mean.
   Duration to_light() const { return from_seconds(to_light_s_); }
 
@@ -65,6 +65,7 @@ class WallFigures {
   WallReports reports_;
   std::uint64_t frames_ = 0;
   std::uint64_t undrawn_ = 0;
+  bool shown_ = false;
   std::map<std::uint64_t, Begun> begun_;  // frames whose swaps are not known yet
   double to_light_s_ = 1 / 60.0;
   RunSpread skews_ms_, to_light_ms_, to_photon_ms_, gaps_ms_;

@@ -19,21 +19,25 @@ constexpr Duration kSearch = std::chrono::seconds(10);
          "start one (vindu launch), or name the wall file that it was started with (--wall)"});
   throw Error(
       {"does not answer", "the master on " + master->host,
-       "look at its lines (vindu logs), or start it again (vindu restart); a wall with keys "
-       "answers to them alone ([cluster] keys in the wall file)"});
+       "look at its lines (vindu logs; of a wall on one machine, where vindu launch runs), or "
+       "start "
+       "it again; a wall with keys answers to them alone ([cluster] keys in the wall file)"});
 }
 
 }  // namespace
 
 AnswerMessage ask_wall(Transport& transport, const Participant& self, const Request& request,
                        Duration patience) {
+  for (const std::string& text : {request.argument, request.clip})
+    if (text.size() > kLongestArgument)
+      throw Error({"is too long, " + std::to_string(text.size()) + " characters",
+                   text.substr(0, 40) + "...",
+                   "name it in " + std::to_string(kLongestArgument) + " at most"});
   const auto bus = transport.join({self, {Topic::command}, {Topic::answer, Topic::presence}});
   const Time begin = std::chrono::steady_clock::now();
   const auto number = static_cast<std::uint64_t>(begin.time_since_epoch().count()) | 1;
   std::optional<Participant> master, other;
-  const auto until = [&] {
-    return begin + (master || other ? patience : std::min(patience, kSearch));
-  };
+  const auto until = [&] { return begin + (master ? patience : std::min(patience, kSearch)); };
   for (Time next = begin; std::chrono::steady_clock::now() < until();) {
     if (std::chrono::steady_clock::now() >= next) {
       bus->publish(CommandMessage{.sender = self.name,

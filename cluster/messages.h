@@ -157,6 +157,8 @@ struct EventMessage {
 
 enum class Verb { show, mode, go_to, pattern, blank, stop, overlay, clip, capture };
 
+constexpr std::size_t kLongestArgument = 1023;  ///< of a command, and of its clip
+
 /// Consoles to the master and tiles. An argument is data: it never reaches a shell.
 struct CommandMessage {
   std::string sender{};       ///< the console's name

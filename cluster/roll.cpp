@@ -16,11 +16,23 @@ void Roll::hear(const Presence& presence) {
     others_.push_back(presence.who);
 }
 
-std::optional<Participant> Roll::master() const {
-  std::optional<Participant> master;
+std::vector<Participant> Roll::masters() const {
+  std::vector<Participant> masters;
   for (const Participant& other : others_)
-    if (other.role == Role::master && other.protocol == self_.protocol) master = other;
-  return master;
+    if (other.role == Role::master && other.protocol == self_.protocol) masters.push_back(other);
+  return masters;
+}
+
+std::optional<Participant> Roll::master() const {
+  const std::vector<Participant> all = masters();
+  const auto newest = std::ranges::max_element(all, {}, &Participant::epoch);
+  return newest == all.end() ? std::nullopt : std::optional(*newest);
+}
+
+bool Roll::has_tile(const std::string& name) const {
+  return std::ranges::any_of(others_, [&](const Participant& other) {
+    return other.role == Role::tile && other.name == name && other.protocol == self_.protocol;
+  });
 }
 
 std::vector<std::string> Roll::trackers() const {
@@ -34,8 +46,7 @@ std::vector<std::string> Roll::trackers() const {
 std::vector<std::string> Roll::hosts_of_masters() const {
   std::vector<std::string> hosts;
   if (self_.role == Role::master) hosts.push_back(self_.host);
-  for (const Participant& other : others_)
-    if (other.role == Role::master) hosts.push_back(other.host);
+  for (const Participant& other : masters()) hosts.push_back(other.host);
   return hosts;
 }
 

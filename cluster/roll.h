@@ -17,8 +17,11 @@ class Roll {
 
   void hear(const Presence& presence);
 
-  /// Of the others: the master that came last.
+  /// Of the others.
+  std::vector<Participant> masters() const;
+  /// The newest of these, which tiles follow.
   std::optional<Participant> master() const;
+  bool has_tile(const std::string& name) const;
   std::vector<std::string> trackers() const;
 
   /// A line for each thing, as people should be told it.

@@ -1,5 +1,5 @@
-// Which of the processes that speak for a tile is the tile: the newest. One that was replaced and
-// still speaks is a twin.
+// Which of the processes that speak for a tile is the tile: the one that was heard first last. One
+// that was replaced and still speaks is a twin.
 #pragma once
 
 #include <algorithm>
@@ -14,17 +14,17 @@ namespace vindu {
 class Succession {
  public:
   enum class Voice {
-    own,        ///< of whom spoke before
-    first,      ///< nobody did
+    own,        ///< of whom spoke before, or the first at all
     successor,  ///< in his place from now on
     twin,       ///< of one in whose place another is
   };
 
   /// `incarnation`: of the process, not 0.
   Voice hear(std::uint64_t incarnation, Time now) {
-    if (incarnation == current_ || current_ == 0) {
+    if (current_ == 0) current_ = incarnation;
+    if (incarnation == current_) {
       heard_ = now;
-      return current_ == std::exchange(current_, incarnation) ? Voice::own : Voice::first;
+      return Voice::own;
     }
     const bool replaced = std::ranges::find(replaced_, incarnation) != replaced_.end();
     if (replaced && now - heard_ < kSilence) return Voice::twin;
@@ -34,8 +34,6 @@ class Succession {
     heard_ = now;
     return Voice::successor;
   }
-
-  std::uint64_t current() const { return current_; }
 
  private:
   /// Of the newest, after which one that it replaced may take its place again.

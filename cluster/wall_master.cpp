@@ -144,6 +144,13 @@ void WallMaster::warn_once(const std::string& tile, const std::string& what) {
   if (warned_of_.size() < kMostWarnings && warned_of_.insert(tile).second) log_warning(tile, what);
 }
 
+std::optional<Participant> WallMaster::older_master() const {
+  const std::uint64_t own = options_.self.epoch;
+  for (const Participant& other : roll_.masters())
+    if (other.epoch != 0 && other.epoch < own) return other;
+  return std::nullopt;
+}
+
 /// What is new of what is wrong about who is there.
 void WallMaster::complain() {
   std::vector<std::string> lines = roll_.complaints();
@@ -157,15 +164,14 @@ void WallMaster::hear(const StatusMessage& status, Time now) {
   if (found == tiles_.end()) return warn_once(status.tile, "is no tile of this wall: left out");
   if (!speaks_for(status.tile, status.incarnation, now)) {
     const std::string followed = found->second.status ? found->second.status->host : "another host";
-    return warn_once(status.tile,
-                     fmt::format("runs twice: on {}, and on {}, which started later and is the one "
-                                 "that is followed; end one of them",
-                                 status.host, followed));
+    return warn_once(status.tile, fmt::format("runs twice, on {} and on {}: end one of them",
+                                              status.host, followed));
   }
   const std::optional<StatusMessage>& before = found->second.status;
   if (!before || before->state != status.state || before->scene_revision != status.scene_revision)
     stirred_ = now;
   found->second.status = status;
+  found->second.present = true;
   barrier_.set_busy(status.tile, status.state == TileState::loading);
 }
 
@@ -175,8 +181,9 @@ void WallMaster::hear(const Presence& presence, Time now) {
   const auto found = tiles_.find(presence.who.name);
   if (presence.who.role != Role::tile || found == tiles_.end()) return;
   stirred_ = now;
-  const bool gone =
-      presence.change == PresenceChange::silent || presence.change == PresenceChange::left;
+  if (presence.change == PresenceChange::left) processes_.erase(presence.who.name);
+  const bool gone = presence.change == PresenceChange::silent ||
+                    (presence.change == PresenceChange::left && !roll_.has_tile(presence.who.name));
   found->second.present = !gone && presence.change != PresenceChange::other_version;
   if (gone) barrier_.leave(presence.who.name);
 }

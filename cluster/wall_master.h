@@ -90,8 +90,8 @@ class WallMaster {
   /// Of frames whose tiles have all reported, or that are too old to wait for more.
   std::vector<FrameSkew> take_skews();
   std::size_t active() const { return barrier_.active(); }
-  /// Another one of this wall that is on the bus.
-  std::optional<Participant> other_master() const { return roll_.master(); }
+  /// Another one of this wall that was on the bus before this one; of both that say when they came.
+  std::optional<Participant> older_master() const;
   /// The number of the newest frame; 0: none was begun.
   std::uint64_t newest() const { return newest_; }
 

@@ -227,8 +227,8 @@ std::string table_of(const WallNow& wall) {
   for (const std::string& tracker : wall.trackers) text += "tracker " + tracker + "\n";
   for (const TileNow& tile : wall.tiles)
     if (!tile.twin.empty())
-      text += fmt::format("{} runs twice: on {}, and on {}, which is followed; end one of them\n",
-                          tile.name, tile.twin, tile.last.host);
+      text += fmt::format("{} runs twice, on {} and on {}: end one of them\n", tile.name, tile.twin,
+                          tile.last.host);
   for (const std::string& complaint : wall.complaints) text += complaint + "\n";
   return text;
 }

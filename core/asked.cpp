@@ -1,5 +1,6 @@
 #include "core/asked.h"
 
+#include <limits>
 #include <sstream>
 
 #include "core/internal/toml_table.h"
@@ -11,8 +12,9 @@ std::optional<Vec3> point_from(const toml::array* numbers) {
   if (!numbers || numbers->size() != 3) return std::nullopt;
   Vec3 point;
   for (std::size_t i = 0; i < 3; ++i)
-    point[static_cast<Eigen::Index>(i)] = (*numbers)[i].value_or(0.0);
-  return point;
+    point[static_cast<Eigen::Index>(i)] =
+        (*numbers)[i].value_or(std::numeric_limits<double>::quiet_NaN());
+  return point.allFinite() ? std::optional(point) : std::nullopt;
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ class Digest {
 
 }  // namespace
 
-std::string sha256_of(std::string_view bytes) {
+std::string sha256_of_text(std::string_view bytes) {
   Digest digest;
   digest.add(bytes);
   return digest.text();

@@ -8,7 +8,7 @@
 namespace vindu {
 
 /// SHA-256 (FIPS 180-4) in hexadecimal.
-std::string sha256_of(std::string_view bytes);
+std::string sha256_of_text(std::string_view bytes);
 
 /// Of the file's bytes; empty when it cannot be read.
 std::optional<std::string> sha256_of_file(const std::string& file);

@@ -134,7 +134,7 @@ std::string fingerprint_of(const Wall& wall) {
       for (const double metres : corner) text += fmt::format(" {}", std::llround(1e6 * metres));
     text += "\n";
   }
-  return sha256_of(text).substr(0, 16);
+  return sha256_of_text(text).substr(0, 16);
 }
 
 Wall single_screen(double width_m, double height_m, int width_px, int height_px) {

@@ -41,7 +41,7 @@ int find_clip(const std::vector<std::string>& clips, const std::string& wish,
   if (const int number = number_of(wish, clips.size()); number >= 0) return number;
   if (wish == "rest") return kAtRest;
   if (clips.empty())
-    throw Error({"has no clips, so none \"" + wish + "\"", model, "leave out --clip"});
+    throw Error({"has no clips, so none \"" + wish + "\"", model, "its model stays at rest"});
   throw Error({"has no clip \"" + wish + "\"", model, "choose " + listed(clips) + ", or rest"});
 }
 

@@ -32,6 +32,20 @@ EmulatedDeviceOptions device_options(const EmulatedWiimoteOptions& wiimote, std:
   return options;
 }
 
+/// Each in a part of the width that the first would have alone.
+PersonOptions person_options(const PersonOptions& first, std::size_t which, std::size_t people) {
+  PersonOptions options = first;
+  options.seed += 0x9e3779b97f4a7c15ULL * which;
+  const double width_m = first.largest_eye_in_room.x() - first.least_eye_in_room.x();
+  const auto edge_m = [&](std::size_t part) {
+    return first.least_eye_in_room.x() +
+           width_m * static_cast<double>(part) / static_cast<double>(people);
+  };
+  options.least_eye_in_room.x() = edge_m(which);
+  options.largest_eye_in_room.x() = edge_m(which + 1);
+  return options;
+}
+
 void press(const std::vector<ButtonPress>& presses, Time time, SensorView& view) {
   for (const ButtonPress& press : presses) {
     if (time < press.from || time >= press.until) continue;
@@ -43,17 +57,23 @@ void press(const std::vector<ButtonPress>& presses, Time time, SensorView& view)
 }  // namespace
 
 EmulatedRoom::EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOptions& options)
-    : person_(
-          std::make_unique<Person>(site.heads.front(), site.wall.room_from_wall, options.person)),
-      bus_(std::make_unique<EmulatedHidBus>(clock)) {
-  const LedBody body =
-      options.body.value_or(helmet_body(site.heads.front(), [person = person_.get()](Time time) {
+    : bus_(std::make_unique<EmulatedHidBus>(clock)) {
+  std::vector<LedBody> bodies = options.body ? std::vector{*options.body} : std::vector<LedBody>{};
+  for (std::size_t i = 0; i < options.people; ++i) {
+    const HeadConfig& head = site.heads.at(i);
+    people_.push_back(std::make_unique<Person>(head, site.wall.room_from_wall,
+                                               person_options(options.person, i, options.people)));
+    if (!options.body)
+      bodies.push_back(helmet_body(head, [person = people_.back().get()](Time time) {
         return person->room_from_head(time);
       }));
+  }
+  const LedBody first = bodies.front();
+  bodies.erase(bodies.begin());
   for (std::size_t i = 0; i < site.cameras.size(); ++i) {
     const std::uint64_t seed = options.wiimote.seed + 0x9e3779b97f4a7c15ULL * (i + 1);
-    EmulatedSensor sensor(site.cameras[i], body, options.wiimote.noise_px, seed,
-                          options.wiimote.glints, options.wiimote.false_dots);
+    EmulatedSensor sensor(site.cameras[i], first, options.wiimote.noise_px, seed,
+                          options.wiimote.glints, options.wiimote.false_dots, bodies);
     const Duration late = i < options.late.size() ? options.late[i] : Duration{};
     const auto presses = i == 0 ? options.presses : std::vector<ButtonPress>{};
     EmulatedDeviceOptions device = device_options(options.wiimote, seed, site.cameras[i]);

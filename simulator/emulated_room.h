@@ -1,5 +1,5 @@
-// The room that replaces the real one on a machine without cameras: a person with the helmet, and
-// for every emulated camera of the site a Wiimote that watches.
+// The room that replaces the real one on a machine without cameras: people with helmets, and for
+// every emulated camera of the site a Wiimote that watches.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,9 @@ struct ButtonPress {
 
 struct EmulatedRoomOptions {
   PersonOptions person{};
+  /// Who walk about, each with the helmet of a [[head]] of the site in their order; at most as
+  /// many. Several share the width of the place. None stands in another's light.
+  std::size_t people = 1;
   std::optional<LedBody> body{};  ///< seen in place of the person's helmet
   /// By camera: how much later than its picture it shows something, besides the link's delay; those
   /// without an entry: not at all.
@@ -40,7 +43,8 @@ class EmulatedRoom {
   EmulatedRoom(const Site& site, Clock& clock, const EmulatedRoomOptions& options = {});
 
   /// The truth, for figures and pictures only.
-  const Person& person() const { return *person_; }
+  std::size_t people() const { return people_.size(); }
+  const Person& person(std::size_t which = 0) const { return *people_.at(which); }
 
   /// Opens the device that stands where the site's camera stands.
   std::unique_ptr<HidDevice> connect(std::size_t camera) const;
@@ -49,7 +53,7 @@ class EmulatedRoom {
   EmulatedHidBus& bus() const { return *bus_; }
 
  private:
-  std::unique_ptr<Person> person_;  // stays where it is: the devices look at it
+  std::vector<std::unique_ptr<Person>> people_;  // stay where they are: the devices look at them
   std::unique_ptr<EmulatedHidBus> bus_;
 };
 

@@ -18,9 +18,11 @@ std::array<double, 3> resting_acceleration_g(const Rigid3& camera_from_room) {
 }  // namespace
 
 EmulatedSensor::EmulatedSensor(const CameraConfig& config, LedBody body, double noise_px,
-                               std::uint64_t seed, std::vector<Glint> glints, double false_dots)
+                               std::uint64_t seed, std::vector<Glint> glints, double false_dots,
+                               std::vector<LedBody> others)
     : camera_(config),
       body_(std::move(body)),
+      others_(std::move(others)),
       glints_(std::move(glints)),
       noise_px_(noise_px),
       false_dots_(false_dots),
@@ -39,22 +41,35 @@ void EmulatedSensor::add_spot(const Vec3& x_in_room, double brightness,
   spots.push_back({x_px, y_px, brightness});
 }
 
-SensorView EmulatedSensor::view(Time time) { return view(body_.room_from_body(time)); }
+void EmulatedSensor::add_body(const LedBody& body, const Rigid3& room_from_body,
+                              std::vector<SensorSpot>& spots) {
+  const Vec3 camera_in_body = inverse(room_from_body) * camera_.room_from_camera().translation;
+  for (std::size_t led = 0; led < body.leds_in_body.size(); ++led)
+    add_spot(room_from_body * body.leds_in_body[led], body.brightness(led, camera_in_body), spots);
+}
 
-SensorView EmulatedSensor::view(const Rigid3& room_from_body) {
+void EmulatedSensor::add_stray_light(std::vector<SensorSpot>& spots) {
   const Vec3 camera_in_room = camera_.room_from_camera().translation;
-  const Vec3 camera_in_body = inverse(room_from_body) * camera_in_room;
-  SensorView view;
-  view.acceleration_g = acceleration_g_;
-  for (std::size_t led = 0; led < body_.leds_in_body.size(); ++led)
-    add_spot(room_from_body * body_.leds_in_body[led], body_.brightness(led, camera_in_body),
-             view.spots);
   for (const Glint& glint : glints_)
     add_spot(glint.x_in_room, glint.brightness / (glint.x_in_room - camera_in_room).squaredNorm(),
-             view.spots);
+             spots);
   if (false_dots_ > 0 && random_.uniform(0, 1) < false_dots_)
-    view.spots.push_back(
+    spots.push_back(
         {random_.uniform(0, kWiimoteWidth_px), random_.uniform(0, kWiimoteHeight_px), kFalseDot});
+}
+
+SensorView EmulatedSensor::view(Time time) {
+  SensorView view{.acceleration_g = acceleration_g_, .spots = {}};
+  add_body(body_, body_.room_from_body(time), view.spots);
+  for (const LedBody& other : others_) add_body(other, other.room_from_body(time), view.spots);
+  add_stray_light(view.spots);
+  return view;
+}
+
+SensorView EmulatedSensor::view(const Rigid3& room_from_body) {
+  SensorView view{.acceleration_g = acceleration_g_, .spots = {}};
+  add_body(body_, room_from_body, view.spots);
+  add_stray_light(view.spots);
   return view;
 }
 

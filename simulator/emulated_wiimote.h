@@ -35,17 +35,19 @@ struct EmulatedWiimoteOptions {
 /// The light on the sensor. Bound to one thread.
 class EmulatedSensor {
  public:
+  /// `others`: bodies beside the first.
   EmulatedSensor(const CameraConfig& config, LedBody body, double noise_px, std::uint64_t seed,
-                 std::vector<Glint> glints = {}, double false_dots = 0);
+                 std::vector<Glint> glints = {}, double false_dots = 0,
+                 std::vector<LedBody> others = {});
   /// Of a helmet.
   EmulatedSensor(const CameraConfig& config, const HeadConfig& head, double noise_px,
                  std::uint64_t seed, std::vector<Glint> glints = {}, double false_dots = 0)
       : EmulatedSensor(config, helmet_body(head, {}), noise_px, seed, std::move(glints),
                        false_dots) {}
 
-  /// What reaches the Wiimote, of a body there.
+  /// What reaches the Wiimote, of the first body there alone.
   SensorView view(const Rigid3& room_from_body);
-  /// Of the body where it is at that time.
+  /// Of all bodies where they are at that time.
   SensorView view(Time time);
 
   /// What a camera on the Wii's sensitivity level 4 makes of it, and an accelerometer that shows
@@ -53,10 +55,13 @@ class EmulatedSensor {
   SensorState look(const Rigid3& room_from_body);
 
  private:
+  void add_body(const LedBody& body, const Rigid3& room_from_body, std::vector<SensorSpot>& spots);
+  void add_stray_light(std::vector<SensorSpot>& spots);
   void add_spot(const Vec3& x_in_room, double brightness, std::vector<SensorSpot>& spots);
 
   CameraModel camera_;
   LedBody body_;
+  std::vector<LedBody> others_;
   std::vector<Glint> glints_;
   double noise_px_;
   double false_dots_;

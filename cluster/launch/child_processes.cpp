@@ -96,17 +96,13 @@ FileDescriptor open_signs_of_life() {
   return socket_;
 }
 
-/// Ours, with the socket's name.
-std::vector<std::string> environment_with(int socket_) {
+/// As sd_notify(3) writes those of the abstract namespace.
+std::string name_of_socket(int socket_) {
   sockaddr_un address{};
   socklen_t size = sizeof address;
   getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
   const std::size_t begin = offsetof(sockaddr_un, sun_path) + 1;
-  std::vector<std::string> environment{"NOTIFY_SOCKET=@" +
-                                       std::string(address.sun_path + 1, size - begin)};
-  for (char** entry = environ; *entry; ++entry)
-    if (!std::string_view(*entry).starts_with("NOTIFY_SOCKET=")) environment.emplace_back(*entry);
-  return environment;
+  return "@" + std::string(address.sun_path + 1, size - begin);
 }
 
 std::vector<char*> pointers_to(const std::vector<std::string>& words) {
@@ -139,15 +135,18 @@ std::string text_of(const ChildEnd& end) {
   return std::string("was killed (") + strsignal(end.signal) + ")";
 }
 
-ChildProcesses::ChildProcesses() {
+ChildProcesses::ChildProcesses(SignsOfLife signs) {
   sigset_t signals;
   sigemptyset(&signals);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&signals, signal);
   pthread_sigmask(SIG_BLOCK, &signals, &before_);
   signals_ = FileDescriptor(signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC));
   if (!signals_.open()) refuse("the system gives no signalfd");
+  for (char** entry = environ; *entry; ++entry)
+    if (!std::string_view(*entry).starts_with("NOTIFY_SOCKET=")) environment_.emplace_back(*entry);
+  if (signs == SignsOfLife::not_asked_for) return;
   signs_of_life_ = open_signs_of_life();
-  environment_ = environment_with(signs_of_life_.get());
+  environment_.push_back("NOTIFY_SOCKET=" + name_of_socket(signs_of_life_.get()));
 }
 
 ChildProcesses::~ChildProcesses() {
@@ -209,7 +208,8 @@ void ChildProcesses::read_signs_of_life(ChildNews& news) const {
   char text = 0;
   iovec part{&text, 1};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(ucred))> control{};
-  while (true) {
+  constexpr int kMost = 256;  // of one turn
+  for (int i = 0; i < kMost; ++i) {
     msghdr message{};
     message.msg_iov = &part;
     message.msg_iovlen = 1;

@@ -57,7 +57,9 @@ std::string text_of(const ChildEnd& end);
 /// inherit that signals are held back. All children that are left are killed at the end.
 class ChildProcesses {
  public:
-  ChildProcesses();
+  enum class SignsOfLife { not_asked_for, asked_for };  ///< ChildNews::alive
+
+  explicit ChildProcesses(SignsOfLife signs = SignsOfLife::not_asked_for);
   ~ChildProcesses();
   ChildProcesses(const ChildProcesses&) = delete;
   ChildProcesses& operator=(const ChildProcesses&) = delete;
@@ -94,7 +96,7 @@ class ChildProcesses {
   Reaper reaper_;
   sigset_t before_{};
   FileDescriptor signals_;
-  FileDescriptor signs_of_life_;  // a socket, whose name is in the children's environment
+  FileDescriptor signs_of_life_;  // a socket, whose name is in the children's environment; or none
   std::vector<std::string> environment_;
 };
 

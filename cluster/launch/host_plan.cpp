@@ -185,7 +185,7 @@ ExecStart=%h/.vindu/bin/vindu master)sh" +
          R"sh(
 Restart=on-failure
 RestartSec=200ms
-RestartPreventExitStatus=2
+RestartPreventExitStatus=2 3
 TimeoutStartSec=60
 TimeoutStopSec=5
 WatchdogSec=10
@@ -268,7 +268,7 @@ std::string slurm_script(const std::vector<HostPlan>& hosts, const HostRequest& 
         fmt::format("{}) tiles={} master={} ;;\n", shell_word(plan.host),
                     shell_word(fmt::format("{}", fmt::join(plan.tiles, " "))), plan.master ? 1 : 0);
   step += R"sh(esac
-run() { until "$@"; do [ $? -ne 2 ] || return 2; sleep 0.2; done; }
+run() { until "$@"; do case $? in 2|3) return 2 ;; esac; sleep 0.2; done; }
 vindu=$HOME/.vindu/bin/vindu wall=$HOME/.vindu/wall.toml
 )sh";
   if (!request.headless) step += "export DISPLAY=\"${DISPLAY:-:0}\"\n";

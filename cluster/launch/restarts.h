@@ -10,8 +10,9 @@
 namespace vindu {
 
 struct RestartPolicy {
-  /// Who has said that it lives, and says so no more, is ended after this time.
+  /// Who does not say that it lives is ended after this time.
   Duration patience = std::chrono::seconds(10);
+  Duration first_patience = std::chrono::seconds(60);  ///< after its start
   Duration first_delay = std::chrono::milliseconds(200);
   Duration longest_delay = std::chrono::seconds(5);
   Duration young = std::chrono::seconds(10);  ///< who lives longer starts anew

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kCalledWrong = 2;
+constexpr int kCalledWrong = 2, kInVain = 3;  // exit codes: to start it again would be of no use
 constexpr auto kTurn = milliseconds(200);
 constexpr auto kStopPatience = std::chrono::seconds(3);
 
@@ -18,10 +18,13 @@ Time now_() { return std::chrono::steady_clock::now(); }
 }  // namespace
 
 Supervisor::Supervisor(std::vector<ProcessPlan> plans, Output output, const RestartPolicy& policy)
-    : output_(std::move(output)), patience_(policy.patience) {
+    : output_(std::move(output)),
+      patience_(policy.patience),
+      first_patience_(policy.first_patience),
+      turned_(now_()) {
   for (ProcessPlan& plan : plans) {
     const std::string name = plan.name;
-    processes_.emplace(name, Process{std::move(plan), Restarts(policy), {}, now_(), {}});
+    processes_.emplace(name, Process{std::move(plan), Restarts(policy), {}, now_(), Time::max()});
   }
 }
 
@@ -52,7 +55,7 @@ void Supervisor::start_due(Time now) {
     if (!process.due || *process.due > now) continue;
     process.due.reset();
     process.started = now;
-    process.alive.reset();
+    process.alive_until = now + first_patience_;
     children_.start(name, process.plan.words);
   }
 }
@@ -74,15 +77,14 @@ void Supervisor::print(const ChildNews& news) {
 }
 
 void Supervisor::end_who_hangs(const ChildNews& news, Time now) {
-  const bool was_away = now - std::exchange(turned_, now) > std::chrono::seconds(1);
-  for (const std::string& name : news.alive) processes_.at(name).alive = now;
+  const Duration away = now - std::exchange(turned_, now);
+  for (const std::string& name : news.alive) processes_.at(name).alive_until = now + patience_;
   for (auto& [name, process] : processes_) {
-    if (!process.alive) continue;
-    if (was_away) process.alive = now;  // it was this process that hung
-    if (now - *process.alive <= patience_ || !children_.has(name)) continue;
-    output_.trouble(name, fmt::format("hangs: it has said nothing for {:.0f} s; it is ended",
-                                      seconds(now - *process.alive)));
-    process.alive.reset();
+    if (away > std::chrono::seconds(1))
+      process.alive_until += away;  // it was this process that hung
+    if (now <= process.alive_until || !children_.has(name)) continue;
+    output_.trouble(name, "hangs: it says nothing any more; it is ended");
+    process.alive_until = Time::max();
     children_.kill_one(name);
   }
 }
@@ -91,12 +93,14 @@ Supervisor::Outcome Supervisor::consider(const ChildEnd& end) {
   Process& process = processes_.at(end.name);
   if (end.signal == 0 && end.exit_code == 0)
     return process.plan.leads ? Outcome::good : outcome_without_followers();
-  if (process.plan.leads && end.signal == 0) {
+  const bool in_vain =
+      end.exit_code == kCalledWrong || end.exit_code == kInVain || end.exit_code == kNotStarted;
+  const bool ran_well_before = process.restarts.count() > 0;
+  if (process.plan.leads && end.signal == 0 && (in_vain || !ran_well_before)) {
     output_.trouble(end.name, text_of(end) + "; the wall is stopped");
     return Outcome::bad;
   }
-  if (end.exit_code == kCalledWrong || end.exit_code == kNotStarted)
-    return give_up(process, text_of(end));
+  if (in_vain) return give_up(process, text_of(end));
   const Time now = now_();
   const auto delay = process.restarts.after_death(now - process.started);
   if (!delay) return give_up(process, text_of(end) + " again and again");

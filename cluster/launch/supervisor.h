@@ -20,8 +20,9 @@ struct ProcessPlan {
 };
 
 /// Who crashes, fails or hangs is started again; who ends with 0 stays ended. Who leads and ends by
-/// itself ends the wall, and so does a crash of it too many. An exit code of 2, called wrong, or
-/// 127, no such program, is final for everybody.
+/// itself ends the wall, unless it had been started again after a crash; so does a crash of it too
+/// many. An exit code of 2, called wrong, 3, in vain, or 127, no such program, is final for
+/// everybody.
 class Supervisor {
  public:
   struct Output {
@@ -47,8 +48,8 @@ class Supervisor {
     ProcessPlan plan;
     Restarts restarts;
     Time started{};
-    std::optional<Time> due{};    ///< empty: runs, or ended for good
-    std::optional<Time> alive{};  ///< when it last said so; empty: never did
+    std::optional<Time> due{};  ///< empty: runs, or ended for good
+    Time alive_until{};         ///< unless it says that it lives, it hangs then
   };
   enum class Outcome { running, good, bad };
 
@@ -63,10 +64,10 @@ class Supervisor {
 
   std::map<std::string, Process> processes_;
   Output output_;
-  Duration patience_;
-  Time turned_{};
+  Duration patience_, first_patience_;
+  Time turned_;  // when it last had news
   std::vector<std::string> given_up_;
-  ChildProcesses children_;
+  ChildProcesses children_{ChildProcesses::SignsOfLife::asked_for};
 };
 
 }  // namespace vindu

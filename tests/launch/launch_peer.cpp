@@ -1,6 +1,7 @@
 // A launcher and its processes, for tests:
 //   launch_peer launch NAME=BEHAVIOUR ...   keeps them running; the first one leads
-//   launch_peer BEHAVIOUR                   one of them: prints its process id, then
+//   launch_peer launch-impatiently ...      the same; who does not say within 1 s that it lives
+//   hangs launch_peer BEHAVIOUR                   one of them: prints its process id, then
 //     stay    sleeps, with a child of its own that has left the session and heeds no SIGTERM
 //     stubborn   the same, and heeds no SIGTERM itself
 //     hang    says once that it lives, and sleeps
@@ -35,7 +36,8 @@ void say(const std::string& line) {
   std::fflush(stdout);
 }
 
-int launch(const std::string& program, const std::vector<std::string>& processes) {
+int launch(const std::string& program, const std::vector<std::string>& processes,
+           Duration first_patience) {
   std::vector<ProcessPlan> plans;
   for (const std::string& process : processes) {
     const std::size_t equals = process.find('=');
@@ -49,7 +51,7 @@ int launch(const std::string& program, const std::vector<std::string>& processes
   return run_kept([&] {
     say(fmt::format("launcher: pid {}", getpid()));
     Supervisor supervisor(plans, {result, log, log, [](int) {}},
-                          {.patience = std::chrono::milliseconds(500)});
+                          {.patience = std::chrono::seconds(1), .first_patience = first_patience});
     const bool good = supervisor.run();
     say(fmt::format("launcher: {}, {} restarts", good ? "good" : "bad", supervisor.restarts()));
     return good ? 0 : 1;
@@ -131,7 +133,7 @@ int on_hosts_of_a_wall(const std::vector<std::string>& words) {
 [[noreturn]] void live() {
   while (true) {
     notify_systemd("READY=1\nWATCHDOG=1");
-    usleep(100'000);
+    usleep(50'000);
   }
 }
 
@@ -158,7 +160,9 @@ int main(int count, char** begin) try {
   }
   if (words[1] == "master" || words[1] == "tile") stand_for_vindu(words);
   if (words[1] == "hosts" && words.size() > 4) return on_hosts_of_a_wall(words);
-  if (words[1] == "launch") return launch(words[0], {words.begin() + 2, words.end()});
+  const std::vector<std::string> rest(words.begin() + 2, words.end());
+  if (words[1] == "launch") return launch(words[0], rest, RestartPolicy{}.first_patience);
+  if (words[1] == "launch-impatiently") return launch(words[0], rest, std::chrono::seconds(1));
   return behave(words[1]);
 } catch (const vindu::Error& error) {
   fmt::print(stderr, "{}\n", error.what());

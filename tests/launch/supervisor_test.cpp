@@ -27,8 +27,8 @@ class Launcher : public ::testing::Test {
     }
   }
 
-  void launch(std::vector<std::string> processes) {
-    processes.insert(processes.begin(), {VINDU_LAUNCH_PEER, "launch"});
+  void launch(std::vector<std::string> processes, const std::string& verb = "launch") {
+    processes.insert(processes.begin(), {VINDU_LAUNCH_PEER, verb});
     std::vector<char*> words;
     for (std::string& word : processes) words.push_back(word.data());
     words.push_back(nullptr);
@@ -159,8 +159,14 @@ TEST_F(Launcher, StartsAgainWhoSaysNoMoreThatItLives) {
 
   EXPECT_NE(await_pid("tile-1-0"), first);
   kill(launcher_, SIGTERM);
-  await_line("launcher: good, 1 restarts");
+  await_line("launcher: good");
   await_nothing_left();
+}
+
+TEST_F(Launcher, EndsWhoNeverSaysThatItLives) {
+  launch({"master=live", "tile-0-0=stay"}, "launch-impatiently");
+  await_line("tile-0-0: hangs");
+  await_line("tile-0-0: was killed (Killed); it starts again");
 }
 
 TEST_F(Launcher, GivesUpATileThatAlwaysCrashesAndKeepsTheOthers) {

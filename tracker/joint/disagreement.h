@@ -24,8 +24,10 @@ class Disagreement {
   void look_failed(bool dots_enough);
   /// A head was found with that sigma.
   void look_succeeded(double sigma_px);
-  /// How far the dots of a tracked head stand aside, as the mean over a second.
-  void note_aside(double largest_px);
+  /// How far the dots of a tracked head stand aside, as the mean over some seconds; with each
+  /// report. It makes the sigma less, and more only where it may: who stands aside of others that
+  /// agree is wrong himself (CameraWatch).
+  void note_aside(double largest_px, bool may_rise);
 
  private:
   double sigma_px_ = 0;

@@ -165,7 +165,7 @@ void JointMethod::judge(Entry& entry) {
       eye.statics.watch(raw_px, entry.seen.captured);
   }
   eye.watch.count(entry.association, entry.seen.dots);
-  if (cameras_.size() == 2) note_disagreement();
+  note_disagreement();
   const double other_s = seconds(entry.other_time - entry.seen.captured);
   if (eye.clock.locked() && eye.watch.prefers_other_time(entry.association, other_s))
     eye.uses_device_time = !eye.uses_device_time;
@@ -174,8 +174,9 @@ void JointMethod::judge(Entry& entry) {
 /// With more than two cameras the one that stands aside is named, and trusted less.
 void JointMethod::note_disagreement() {
   double largest_px = 0;
-  for (const Eye& eye : eyes_) largest_px = std::max(largest_px, eye.watch.aside_px().norm());
-  disagreement_.note_aside(largest_px);
+  for (const Eye& eye : eyes_)
+    if (!eye.watch.moved()) largest_px = std::max(largest_px, eye.watch.aside_px().norm());
+  disagreement_.note_aside(largest_px, /*may_rise=*/cameras_.size() == 2);
 }
 
 /// The newest time that all cameras which have reported lately have reported of.
@@ -304,6 +305,7 @@ void JointMethod::look_for(std::size_t head, Time now) {
                      .camera = seen.camera,
                      .captured = seen.captured,
                      .slack_px = slack_px,
+                     .tolerant = slack_px > disagreement_.sigma_px(),
                      .steps = pause >= kCheck && !search.rumour ? 1 : kAll};
   if (track.state) search.look->tracked = track.state->room_from_head;
 }
@@ -323,9 +325,10 @@ std::optional<std::size_t> JointMethod::entry_of(const Look& look) const {
   return std::nullopt;
 }
 
-/// Whether two cameras or more see as many dots as a head has LEDs: then it should be found.
-bool JointMethod::dots_enough(const Look& look) const {
-  const auto all = [](const CameraView& view) { return view.dots_px.size() >= 3; };
+/// Whether two cameras or more see as many dots as the head has LEDs: then it should be found.
+bool JointMethod::dots_enough(const Look& look, std::size_t head) const {
+  const std::size_t leds = leds_of_heads_[head].size();
+  const auto all = [&](const CameraView& view) { return view.dots_px.size() >= leds; };
   return std::ranges::count_if(look.search.views(), all) >= 2;
 }
 
@@ -334,16 +337,15 @@ void JointMethod::conclude(std::size_t head) {
   Search& search = searches_[head];
   const Look& look = *search.look;
   const auto found = look.search.winner();
-  const bool tolerant = look.slack_px > disagreement_.sigma_px();
   const bool doubted = !look.tracked || contradicted(head);
   const bool fits = found && (options_.position_only || fits_closely(*found)) &&
-                    (!tolerant || dots_of(*found) >= kManyDots);
+                    (!look.tolerant || dots_of(*found) >= kManyDots);
   if (fits) judge_cameras(look.search.views(), *found);
   const bool known =
-      fits && (found->believed || (look.tracked && !(tolerant && doubted) &&
+      fits && (found->believed || (look.tracked && !(look.tolerant && doubted) &&
                                    same_pose(found->fit.room_from_head, *look.tracked)));
   if (!fits || known) {
-    if (doubted) disagreement_.look_failed(dots_enough(look));
+    if (doubted) disagreement_.look_failed(dots_enough(look, head));
     return search.rumour.reset();
   }
   const Rigid3& pose = found->fit.room_from_head;
@@ -353,7 +355,7 @@ void JointMethod::conclude(std::size_t head) {
   if (search.confirmed < looks_needed(*found, look.tracked && doubted)) return;
   const auto newest = entry_of(look);
   if (!newest) return;
-  disagreement_.look_succeeded(look.slack_px);
+  disagreement_.look_succeeded(look.tolerant ? look.slack_px : 0);
   bear(head, *found, *newest);
 }
 

@@ -61,11 +61,11 @@ class JointMethod {
   /// By how much the cameras contradict each other, beyond what their dots' noise explains: raw
   /// pixels, one sigma; 0 where they agree.
   double disagreement_px() const { return disagreement_.sigma_px(); }
-  /// Whether two cameras have seen dots enough for seconds that are no head's, whatever is allowed
-  /// for.
   /// By which share heads look larger than their LEDs are apart where the cameras' rays meet; that
   /// of the camera with the most, of two or more. Poses of cameras, lenses or LEDs are wrong then.
   double heads_look_larger() const;
+  /// Whether two cameras have seen dots enough for seconds that are no head's, whatever is allowed
+  /// for.
   bool nothing_fits() const { return disagreement_.nothing_fits(); }
 
  private:
@@ -92,6 +92,7 @@ class JointMethod {
     Time captured{};
     std::optional<Rigid3> tracked{};  ///< where the head was by then
     double slack_px = 0;              ///< that its dots were given for what cameras contradict
+    bool tolerant = false;            ///< that was more than cameras were known to contradict
     std::size_t steps = 0;            ///< a frame
   };
 
@@ -108,7 +109,7 @@ class JointMethod {
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart, double slack_px) const;
   void note_disagreement();
   AcquisitionOptions acquisition_options(const HeadTrack& head, double slack_px) const;
-  bool dots_enough(const Look& look) const;
+  bool dots_enough(const Look& look, std::size_t head) const;
   Duration pause_of_looks(std::size_t head) const;
   bool contradicted(std::size_t head) const;
   bool sure(std::size_t head) const;

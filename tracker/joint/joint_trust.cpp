@@ -115,7 +115,7 @@ void JointMethod::add_misfit(std::size_t head, PoseSample& sample) const {
   if (disagreement_.sigma_px() > 0) {
     const Eigen::LDLT<Mat6> information(information_now(head));
     if (information.isPositive() && information.rcond() > 1e-12)
-      sample.covariance = information.solve(Mat6::Identity());
+      sample.covariance += information.solve(Mat6::Identity());
   }
   const double larger = heads_look_larger();
   if (std::abs(larger) < kUsual) return;
