@@ -101,8 +101,10 @@ class MasterRun {
       wall_.poll(now);
       if (gives_way(now - start)) break;
       note_events();
-      if (now >= speaks) scenes_->follow();
-      for (const CommandMessage& command : desk_.take()) answer(command);
+      if (now >= speaks) {
+        scenes_->follow();
+        for (const CommandMessage& command : desk_.take()) answer(command);
+      }
       answer_captures();
       if (wall_.open() && now >= tick) {
         on_tick(now);
@@ -115,7 +117,7 @@ class MasterRun {
       remember(now - start);
     }
     if (!older_) kept_.remove();
-    figures_.length = clock_.now() - speaks;
+    figures_.length = std::max(clock_.now() - speaks, Duration::zero());
     if (stopped_) answer_stragglers();
     figures_.tiles = wall_.tiles();
     figures_.end();

@@ -80,6 +80,7 @@ void Supervisor::end_who_hangs(const ChildNews& news, Time now) {
   const Duration away = now - std::exchange(turned_, now);
   for (const std::string& name : news.alive) processes_.at(name).alive_until = now + patience_;
   for (auto& [name, process] : processes_) {
+    if (process.alive_until == Time::max()) continue;
     if (away > std::chrono::seconds(1))
       process.alive_until += away;  // it was this process that hung
     if (now <= process.alive_until || !children_.has(name)) continue;

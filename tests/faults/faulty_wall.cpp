@@ -1,6 +1,7 @@
 #include "tests/faults/faulty_wall.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -52,7 +53,8 @@ void FaultyWall::start(std::size_t index) {
   const std::string& name = member.host.name();
   std::vector<std::string> words = {options_.program};
   if (index == kMaster) {
-    words.insert(words.end(), {"master", "--mode", "loop", "--pattern", "counter", "--json"});
+    words.insert(words.end(), {"master", "--mode", "loop", "--pattern", "counter", "--json",
+                               "--session", std::to_string(getpid())});  // as launchers have it
     if (!options_.model.empty()) words.push_back(options_.model);
   } else {
     member.shown.emplace_back(
