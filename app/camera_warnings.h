@@ -21,15 +21,27 @@ class CameraWarnings {
   std::string misfit(const Tracker& tracker) const;
 
  private:
-  enum class Misfit { none, nothing_fits, contradiction, size };
+  struct Misfit {
+    bool nothing_fits = false, contradiction = false, size = false;
+
+    bool any() const { return nothing_fits || contradiction || size; }
+  };
 
   Misfit misfit_of(const Tracker& tracker) const;
-  std::string text_of(Misfit misfit, const Tracker& tracker) const;
+  std::string text_of(const Misfit& misfit, const Tracker& tracker) const;
+  void look_at_cameras(const Tracker& tracker, Time now);
+  void look_at_misfit(const Tracker& tracker, Time now);
 
-  std::vector<std::string> names_;  // of the cameras, as the next
-  std::vector<bool> moved_;
+  struct Camera {
+    std::string name;
+    bool moved = false;  // as it was told
+    Time moved_last{};
+  };
+
+  std::vector<Camera> cameras_;
   Time looked_{};
-  Misfit told_ = Misfit::none;
+  Misfit told_;
+  Time misfit_last_{};
 };
 
 }  // namespace vindu::app

@@ -96,9 +96,10 @@ double Coverage::share() const {
 }
 
 void check_leds(const std::vector<double>& leds_m) {
-  const bool rising = std::ranges::adjacent_find(leds_m, std::greater_equal<>()) == leds_m.end();
+  const auto falls = [](double a, double b) { return !(a < b); };  // or is no number
+  const bool rising = std::ranges::adjacent_find(leds_m, falls) == leds_m.end();
   if (leds_m.size() < 2 || leds_m.size() > 3 || leds_m.front() != 0 || !rising ||
-      leds_m.back() < 0.05 || leds_m.back() > 5)
+      !(leds_m.back() >= 0.05 && leds_m.back() <= 5))
     throw Error({"needs two or three LEDs, rising from 0 to a length of 0.05 to 5 m", "wand",
                  "give their places along it: 0,500 or 0,150,500 (mm)"});
   if (leds_m.size() == 3 && std::abs(leds_m[1] / leds_m[2] - 0.5) < 0.1)

@@ -8,6 +8,7 @@ namespace vindu {
 /// Mean and spread of what is left over, of the expected dots' picture.
 void CameraWatch::note_misfit(const Association& association, const DotList& dots) {
   constexpr double kShare = 0.005, kLeastSpread_px = 20;
+  if (association.accepted.empty()) return;
   const auto count = static_cast<double>(association.accepted.size());
   const auto expected_px = [&](const AcceptedDot& dot) -> Vec2 {
     return raw_px_of(dots[dot.dot]) - dot.residual_px;
@@ -28,10 +29,9 @@ void CameraWatch::note_misfit(const Association& association, const DotList& dot
     larger_ += kShare * (outward_px2 / spread_px2 - larger_);
 }
 
-void CameraWatch::count(const Association& association, const DotList& dots) {
+void CameraWatch::count(const Association& association) {
   constexpr int kCalm = 30;
   if (association.accepted.empty()) return;
-  note_misfit(association, dots);
   fitting_ = association.widened ? 0 : fitting_ + 1;
   if (fitting_ > kCalm) widenings_ = 0;
   if (association.widened) ++widenings_;

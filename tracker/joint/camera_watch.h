@@ -11,7 +11,9 @@ namespace vindu {
 class CameraWatch {
  public:
   /// A report of it, taken in while a head is tracked.
-  void count(const Association& association, const DotList& dots);
+  void count(const Association& association);
+  /// The same, and the report's dots: for aside_px() and larger().
+  void note_misfit(const Association& association, const DotList& dots);
   /// Whether its dots fit what others see at the same time; some twenty times a second.
   void judge(bool fits);
 
@@ -34,8 +36,6 @@ class CameraWatch {
   bool prefers_other_time(const Association& association, double other_less_used_s);
 
  private:
-  void note_misfit(const Association& association, const DotList& dots);
-
   Vec2 aside_px_ = Vec2::Zero();
   double larger_ = 0;
   double disagreement_ = 0;  // running mean over about a second; 0: all fits, 1: nothing

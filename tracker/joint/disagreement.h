@@ -8,7 +8,7 @@
 
 namespace vindu {
 
-/// Of all cameras together. Bound to one thread.
+/// Of two cameras: of more, those that agree are right. Bound to one thread.
 class Disagreement {
  public:
   /// What is to be added to the sigma of every dot, raw pixels; 0 where cameras agree.
@@ -25,9 +25,8 @@ class Disagreement {
   /// A head was found with that sigma.
   void look_succeeded(double sigma_px);
   /// How far the dots of a tracked head stand aside, as the mean over some seconds; with each
-  /// report. It makes the sigma less, and more only where it may: who stands aside of others that
-  /// agree is wrong himself (CameraWatch).
-  void note_aside(double largest_px, bool may_rise);
+  /// report.
+  void note_aside(double largest_px);
 
  private:
   double sigma_px_ = 0;

@@ -164,19 +164,22 @@ void JointMethod::judge(Entry& entry) {
     else if (!entry.association.disputed[i])
       eye.statics.watch(raw_px, entry.seen.captured);
   }
-  eye.watch.count(entry.association, entry.seen.dots);
-  note_disagreement();
+  eye.watch.count(entry.association);
+  if (!options_.position_only) eye.watch.note_misfit(entry.association, entry.seen.dots);
+  if (may_contradict()) note_disagreement();
   const double other_s = seconds(entry.other_time - entry.seen.captured);
   if (eye.clock.locked() && eye.watch.prefers_other_time(entry.association, other_s))
     eye.uses_device_time = !eye.uses_device_time;
 }
 
-/// With more than two cameras the one that stands aside is named, and trusted less.
+/// Of two cameras: of more, the one that stands aside is named, and trusted less. Where heads face
+/// the wall, whatever they do, dots never fit.
+bool JointMethod::may_contradict() const { return cameras_.size() == 2 && !options_.position_only; }
+
 void JointMethod::note_disagreement() {
   double largest_px = 0;
-  for (const Eye& eye : eyes_)
-    if (!eye.watch.moved()) largest_px = std::max(largest_px, eye.watch.aside_px().norm());
-  disagreement_.note_aside(largest_px, /*may_rise=*/cameras_.size() == 2);
+  for (const Eye& eye : eyes_) largest_px = std::max(largest_px, eye.watch.aside_px().norm());
+  disagreement_.note_aside(largest_px);
 }
 
 /// The newest time that all cameras which have reported lately have reported of.
@@ -293,8 +296,9 @@ void JointMethod::look_for(std::size_t head, Time now) {
   if (seen.captured <= search.seen) return;  // the same reports prove nothing new
   search.seen = seen.captured;
   const HeadTrack& track = entries_[newest].after[head];
-  // Which of several heads it is could not be told.
-  const bool tolerant = searches_.size() == 1 && (!track.state || contradicted(head));
+  // Which of several heads it is could not be told; of several cameras those that agree are right.
+  const bool tolerant =
+      may_contradict() && searches_.size() == 1 && (!track.state || contradicted(head));
   const double slack_px = tolerant ? disagreement_.sigma_of_look_px() : disagreement_.sigma_px();
   std::vector<CameraView> views;
   for (const std::size_t i : entries)
@@ -345,7 +349,7 @@ void JointMethod::conclude(std::size_t head) {
       fits && (found->believed || (look.tracked && !(look.tolerant && doubted) &&
                                    same_pose(found->fit.room_from_head, *look.tracked)));
   if (!fits || known) {
-    if (doubted) disagreement_.look_failed(dots_enough(look, head));
+    if (doubted && !options_.position_only) disagreement_.look_failed(dots_enough(look, head));
     return search.rumour.reset();
   }
   const Rigid3& pose = found->fit.room_from_head;
@@ -360,6 +364,7 @@ void JointMethod::conclude(std::size_t head) {
 }
 
 void JointMethod::update(Time now) {
+  now_ = now;
   replay();
   for (std::size_t head = 0; head < searches_.size(); ++head) {
     look_for(head, now);
@@ -377,7 +382,7 @@ void JointMethod::update(Time now) {
 std::optional<PoseSample> JointMethod::pose(std::size_t head, Time photon) const {
   const HeadTrack& last = searches_[head].last;
   if (!last.state) return std::nullopt;
-  const Duration unseen = photon - last.seen;
+  const Duration unseen = std::min(photon, now_ + AheadOptions{}.limit) - last.seen;
   const bool tracked = newest_heads()[head].state && unseen < kHeld + AheadOptions{}.limit;
   PoseSample sample =
       tracked ? predicted(*last.state, photon - last.state->time) : sample_of(*last.state);

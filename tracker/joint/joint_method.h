@@ -107,6 +107,7 @@ class JointMethod {
   Time common_time() const;
   std::vector<std::size_t> together(Time common) const;
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart, double slack_px) const;
+  bool may_contradict() const;
   void note_disagreement();
   AcquisitionOptions acquisition_options(const HeadTrack& head, double slack_px) const;
   bool dots_enough(const Look& look, std::size_t head) const;
@@ -129,6 +130,7 @@ class JointMethod {
   Disagreement disagreement_;
   std::deque<Entry> entries_;  // in order of capture
   std::size_t replay_from_ = 0;
+  Time now_{};                   // of the last update
   std::vector<HeadTrack> base_;  // before the first entry
   struct Search {
     std::optional<Look> look{};      // that has begun

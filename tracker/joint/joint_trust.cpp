@@ -104,6 +104,8 @@ Mat6 JointMethod::information_now(std::size_t head) const {
 TrackingLevel JointMethod::level_now(std::size_t head) const {
   if (options_.position_only) return TrackingLevel::position;
   if (contradicted(head)) return TrackingLevel::held;
+  constexpr double kFarTooLarge = 0.05;  // or too small: the place is wrong by as much
+  if (std::abs(heads_look_larger()) > kFarTooLarge) return TrackingLevel::bearing;
   const TrackingLevel level = std::min(level_of(information_now(head)), TrackingLevel::bearing);
   const Duration remembered = entries_.back().seen.captured - searches_[head].sure;
   return remembered > kRemembered ? TrackingLevel::bearing : level;

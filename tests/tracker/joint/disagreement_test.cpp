@@ -10,8 +10,8 @@ namespace vindu {
 namespace {
 
 /// Ten seconds of two Wiimotes' reports.
-void stand_aside(Disagreement& disagreement, double px, bool may_rise = true) {
-  for (int i = 0; i < 2000; ++i) disagreement.note_aside(px, may_rise);
+void stand_aside(Disagreement& disagreement, double px) {
+  for (int i = 0; i < 2000; ++i) disagreement.note_aside(px);
 }
 
 TEST(Disagreement, is_what_dots_stand_aside_by_where_that_is_more_than_usual) {
@@ -30,16 +30,6 @@ TEST(Disagreement, ends_when_they_stand_aside_no_more) {
   Disagreement disagreement;
   stand_aside(disagreement, 9);
   for (int i = 0; i < 3; ++i) stand_aside(disagreement, 0.3);
-  EXPECT_EQ(disagreement.sigma_px(), 0);
-}
-
-TEST(Disagreement, of_many_cameras_falls_and_does_not_rise_with_one_that_stands_aside) {
-  Disagreement disagreement;
-  stand_aside(disagreement, 9, /*may_rise=*/false);
-  EXPECT_EQ(disagreement.sigma_px(), 0);
-  disagreement.look_succeeded(5);
-  EXPECT_EQ(disagreement.sigma_px(), 5);
-  for (int i = 0; i < 3; ++i) stand_aside(disagreement, 0.3, /*may_rise=*/false);
   EXPECT_EQ(disagreement.sigma_px(), 0);
 }
 

@@ -283,15 +283,13 @@ TEST(CameraWatch, names_a_camera_that_fits_nothing_for_a_second_and_takes_it_bac
 
 TEST(CameraWatch, lets_a_camera_doubt_a_head_three_times_in_a_row) {
   CameraWatch watch;
-  DotList dots;
-  dots.push_back({300, 200, 3});
   Association doubt{.accepted = {{}}, .widened = true}, fit{.accepted = {{}}};
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(watch.may_widen());
-    watch.count(doubt, dots);
+    watch.count(doubt);
   }
   EXPECT_FALSE(watch.may_widen());
-  for (int i = 0; i < 40; ++i) watch.count(fit, dots);
+  for (int i = 0; i < 40; ++i) watch.count(fit);
   EXPECT_TRUE(watch.may_widen());
 }
 
