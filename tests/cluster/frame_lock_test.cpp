@@ -112,7 +112,8 @@ TEST(FrameLock, WaitsOnceForATileThatDiesAndTakesItInAgain) {
 TEST(FrameLock, FollowsTheNewerOfTwoProcessesOfATileAndTheOtherOnceThatIsGone) {
   SimulatedWall wall(4);
   wall.run(1);
-  SimulatedTile twin(wall.world, {}, "tile-1-0");
+  const Link link;
+  SimulatedTile twin(wall.world, link, "tile-1-0");
   twin.bus.others = {&wall.bus()};
   wall.bus().others.push_back(&twin.bus);
   twin.start(7);
