@@ -1,11 +1,8 @@
 #include "app/asked_file.h"
 
-#include <fmt/format.h>
-
 #include <cassert>
 #include <filesystem>
 #include <fstream>
-#include <ranges>
 #include <utility>
 
 #include "app/runtime_folder.h"
@@ -17,7 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto kNames = std::views::transform([](Pattern pattern) { return name_of(pattern); });
+std::string names_of_patterns() {
+  std::string names;
+  for (const Pattern pattern : kPatterns)
+    names += (names.empty() ? "" : ", ") + std::string(name_of(pattern));
+  return names;
+}
 
 }  // namespace
 
@@ -26,8 +28,8 @@ void note(const CommandMessage& command, Asked& asked) {
   if (command.verb == Verb::pattern) {
     const auto pattern = pattern_from(word);
     if (!pattern)
-      throw Error({"there is no pattern " + word, "pattern",
-                   fmt::format("choose one of {}", fmt::join(kPatterns | kNames, ", "))});
+      throw Error(
+          {"there is no pattern " + word, "pattern", "choose one of " + names_of_patterns()});
     asked.pattern = *pattern;
     return;
   }

@@ -1,5 +1,5 @@
 // The frame lock in simulated time: what tiles show and what the others wait for, whatever happens.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/cluster/simulated_wall.h"
 
