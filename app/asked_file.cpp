@@ -1,5 +1,7 @@
 #include "app/asked_file.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <filesystem>
 #include <fstream>
@@ -14,13 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string names_of_patterns() {
-  std::string names;
-  for (const Pattern pattern : kPatterns)
-    names += (names.empty() ? "" : ", ") + std::string(name_of(pattern));
-  return names;
-}
-
 }  // namespace
 
 void note(const CommandMessage& command, Asked& asked) {
@@ -28,8 +23,8 @@ void note(const CommandMessage& command, Asked& asked) {
   if (command.verb == Verb::pattern) {
     const auto pattern = pattern_from(word);
     if (!pattern)
-      throw Error(
-          {"there is no pattern " + word, "pattern", "choose one of " + names_of_patterns()});
+      throw Error({"there is no pattern " + word, "pattern",
+                   fmt::format("choose one of {}", fmt::join(pattern_names(), ", "))});
     asked.pattern = *pattern;
     return;
   }

@@ -19,6 +19,7 @@
 #include "cluster/dds.h"
 #include "cluster/launch/host_plan.h"
 #include "cluster/launch/hosts.h"
+#include "cluster/launch/node_set.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/eye_picture.h"
@@ -163,6 +164,21 @@ void check_tiles(const CaptureCommand& command, const Wall& wall) {
                    "this wall has " + wall.tiles.front().name + " to " + wall.tiles.back().name});
 }
 
+/// Says which tiles' pictures are missing, and why that may be.
+bool all_came(const CaptureCommand& command, const Site& site, const CapturedFrame& frame,
+              const Pictures& pictures) {
+  std::vector<std::string> missing;
+  for (const std::string& tile : command.tiles)
+    if (!pictures.contains(tile)) missing.push_back(tile);
+  if (missing.empty()) return true;
+  log_warning(fold_names(missing),
+              fmt::format("no picture of frame {}: do they run (vindu status)? This machine's "
+                          "were looked for in {}: where the wall was started by another user, or "
+                          "with another XDG_RUNTIME_DIR, call this so too",
+                          frame.number, runtime_folder(site.cluster)));
+  return false;
+}
+
 int capture(CaptureCommand command) {
   const Site site = load_site(command.wall_file);
   check_tiles(command, site.wall);
@@ -176,11 +192,7 @@ int capture(CaptureCommand command) {
     for (const auto& [tile, picture] : pictures)
       save_picture(picture, command.out + "/" + tile + ".png");
   if (whole && !pictures.empty()) save_wall(command, site, frame, pictures);
-  for (const std::string& tile : command.tiles)
-    if (!pictures.contains(tile))
-      log_warning(tile, fmt::format("gave no picture of frame {}: does it run? (vindu status)",
-                                    frame.number));
-  return pictures.size() == command.tiles.size() ? 0 : 1;
+  return all_came(command, site, frame, pictures) ? 0 : 1;
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ namespace {
 /// Throws CLI::ValidationError (called wrong) unless the text is three finite numbers with commas.
 Vec3 parse_vec3(const std::string& name, const std::string& text) {
   if (const auto value = vec3_from(text)) return *value;
-  throw CLI::ValidationError(name, "\"" + text + "\" is not x,y,z: three numbers, as -1,0.1,2");
+  throw CLI::ValidationError(
+      name, "\"" + text + "\" is not x,y,z: three numbers, as -1,0.1,2, none beyond a million");
 }
 
 /// The show is made in the metres of the Tromsø wall; on another one it is scaled until its opening
@@ -58,12 +59,6 @@ CLI::Option* add_vec3(CLI::App& app, const std::string& name, std::optional<Vec3
       .add_option_function<std::string>(
           name, [&value, name](const std::string& text) { value = parse_vec3(name, text); }, help)
       ->type_name("X,Y,Z");
-}
-
-std::vector<std::string> pattern_names() {
-  std::vector<std::string> names;
-  for (const Pattern pattern : kPatterns) names.emplace_back(name_of(pattern));
-  return names;
 }
 
 CLI::Option* add_pattern_choice(CLI::App& app, Pattern& value) {

@@ -39,8 +39,6 @@ CLI::Option* add_place(CLI::App& app, std::optional<Placement>& value);
 
 /// --pattern NAME; vindu pattern --help says what each is.
 CLI::Option* add_pattern_choice(CLI::App& app, Pattern& value);
-/// "none", "grid", ...
-std::vector<std::string> pattern_names();
 /// --clip NAME|N
 CLI::Option* add_clip(CLI::App& app, std::string& value);
 

@@ -140,7 +140,8 @@ class MasterRun {
     const Time end = clock_.now() + 2 * kAskAgain + std::chrono::milliseconds(100);
     while (clock_.now() < end) {
       bus_->wait({Topic::command}, end);
-      desk_.take();
+      for (const CommandMessage& command : desk_.take())
+        reply(command, command.verb == Verb::stop, "the wall is ending");
     }
   }
 
@@ -197,7 +198,7 @@ class MasterRun {
     eyes_ = tracked_.get();
   }
 
-  std::unique_ptr<EyeSource> make_tracked() {
+  std::unique_ptr<RemoteEye> make_tracked() {
     std::unique_ptr<EyeSource> own;
     if (!site_.cameras.empty() && !elsewhere_)
       own = std::make_unique<TrackedEye>(
@@ -205,6 +206,11 @@ class MasterRun {
           TrackedEyeOptions{.cameras = {.threads = true, .tap = {}},
                             .on_frame = [this](const Tracker& tracker) { tell(tracker); }});
     return std::make_unique<RemoteEye>(*bus_, site_, std::move(own));
+  }
+
+  /// Elsewhere, whose poses the eye is of; empty: none.
+  std::string tracker() const {
+    return tracked_ && eyes_ == tracked_.get() ? tracked_->tracker() : "";
   }
 
   /// What people do before its own cameras, to all who listen.
@@ -237,7 +243,10 @@ class MasterRun {
       begin(state, eye, now);
     else
       figures_.rested();
-    if (const auto report = figures_.report(now, wall_.tiles())) wall_.report(*report);
+    if (auto report = figures_.report(now, wall_.tiles())) {
+      if (report->tile.empty()) report->tracker = tracker();
+      wall_.report(*report);
+    }
   }
 
   void begin(const FrameState& state, const EyeNow& eye, Time now) {
@@ -337,7 +346,8 @@ class MasterRun {
   Vec3 eye_in_wall_;
   TouchEye touch_{*bus_, site_};
   HeadGestures gestures_;
-  std::unique_ptr<EyeSource> path_, tracked_;  // cameras are opened once, by the mode track
+  std::unique_ptr<EyeSource> path_;
+  std::unique_ptr<RemoteEye> tracked_;  // cameras are opened once, by the mode track
   EyeSource* eyes_ = nullptr;
   StillEye still_{site_};
   std::vector<CommandMessage> captures_;  // for the next frame

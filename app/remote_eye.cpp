@@ -21,7 +21,8 @@ void RemoteEye::hear(const PoseMessage& message, Time now) {
   pose.time = *clock_.here(pose.time);
   pose.capture_time = pose.time;  // by which the history is in order
   history_.add(pose);
-  if (!heard_) log_info("master", "poses come from a tracker elsewhere");
+  if (message.tracker != tracker_) log_info("master", "poses come from " + message.tracker);
+  tracker_ = message.tracker;
   heard_ = now;
 }
 
@@ -31,6 +32,7 @@ EyeNow RemoteEye::at(Time now, Time photon) {
     log_warning("master", own_ ? "no tracker is heard any more: its own cameras are asked"
                                : "no tracker is heard any more");
     heard_.reset();
+    tracker_.clear();
   }
   if (!heard_ && own_) return own_->at(now, photon);
   EyeNow eye{.eye_in_wall = Vec3::Zero(), .mode = Mode::track};

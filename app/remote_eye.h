@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/eye_source.h"
 #include "cluster/bus.h"
@@ -20,6 +21,9 @@ class RemoteEye final : public EyeSource {
 
   EyeNow at(Time now, Time photon) override;
 
+  /// Whose poses were heard last; empty: no tracker is heard.
+  const std::string& tracker() const { return tracker_; }
+
  private:
   void hear(const PoseMessage& message, Time now);
 
@@ -30,6 +34,7 @@ class RemoteEye final : public EyeSource {
   PoseHistory history_;
   EyeEase ease_;
   std::optional<Time> heard_;
+  std::string tracker_;
   Duration capture_delay_{};  // from the capture of the newest pose to its time
 };
 

@@ -45,26 +45,31 @@ std::string json_of(const std::optional<ReportMessage>& report) {
   return fmt::format(
       R"({{"frames": {}, "fps": {:.2f}, "tracked": {}, "level": {}, "parts_ms": {{{}}}, )"
       R"("motion_to_photon_ms": {}, "skew_ms": {}, "locked": {}, "evicted": {}, )"
-      R"("restarted": {}, "event": {}}})",
+      R"("restarted": {}, "event": {}, "tracker": {}}})",
       frames.frames, frames.frames_per_s, frames.tracked,
       json_text(std::string(name_of(report->level))), parts, json_of(frames.motion_to_photon_ms),
       json_of(frames.skew_ms), report->locked, report->evictions, report->restarts,
-      json_text(report->event));
+      json_text(report->event), report->tracker.empty() ? "null" : json_text(report->tracker));
+}
+
+std::string json_of(const std::optional<TileNow::Twin>& twin) {
+  if (!twin) return "null";
+  return fmt::format(R"({{"host": {}, "process": {}}})", json_text(twin->host), twin->process);
 }
 
 std::string json_of(const TileNow& tile) {
   const StatusMessage& last = tile.last;
   return fmt::format(
-      R"({{"tile": {}, "host": {}, "state": {}, "runs_twice_on": {}, "frame": {}, "fps": {:.2f}, )"
+      R"({{"tile": {}, "host": {}, "state": {}, "process": {}, "twin": {}, "frame": {}, "fps": {:.2f}, )"
       R"("late_frames": {}, )"
       R"("restarts": {}, "scene": {}, "renderer": {}, "version": {}, "error": {}, )"
       R"("draw_ms": {:.3f}, "gpu_ms": {:.3f}, "triangles": {}, "culled_share": {:.4f}, )"
       R"("memory_bytes": {:.0f}, "report": {}}})",
-      json_text(tile.name), json_text(last.host), json_text(tile.state),
-      tile.twin.empty() ? "null" : json_text(tile.twin), last.presented, last.frames_per_s,
-      last.late_frames, tile.restarts, last.scene_revision, json_text(last.renderer),
-      json_text(last.version), json_text(last.error), last.draw.draw_ms, last.draw.gpu_ms,
-      last.draw.triangles, last.draw.culled_share, last.draw.memory_bytes, json_of(tile.report));
+      json_text(tile.name), json_text(last.host), json_text(tile.state), last.process,
+      json_of(tile.twin), last.presented, last.frames_per_s, last.late_frames, tile.restarts,
+      last.scene_revision, json_text(last.renderer), json_text(last.version), json_text(last.error),
+      last.draw.draw_ms, last.draw.gpu_ms, last.draw.triangles, last.draw.culled_share,
+      last.draw.memory_bytes, json_of(tile.report));
 }
 
 /// One line.

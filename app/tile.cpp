@@ -210,7 +210,11 @@ class TileRun {
         transport_(network_of(site, Role::tile, command.tiles.front())),
         bus_(transport_.join({this_participant(Role::tile, command.tiles.front(), site),
                               WallTile::publishes(), hears(site, part_)})),
-        tile_(*bus_, {.host = host_name(), .incarnation = random_id(), .version = VINDU_VERSION},
+        tile_(*bus_,
+              {.host = host_name(),
+               .incarnation = random_id(),
+               .version = VINDU_VERSION,
+               .process = static_cast<std::uint32_t>(getpid())},
               command.tiles),
         shown_(command.shown_file, command.tiles.front()) {
     tile_.poll(clock_.now());  // "loading", before anything that takes its time

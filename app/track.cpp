@@ -88,8 +88,9 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
 class Publisher {
  public:
   Publisher(const Site& site, int strength)
-      : transport_(network_of(site, Role::tracker)),
-        bus_(transport_.join({this_participant(Role::tracker, "tracker-" + host_name(), site),
+      : name_("tracker-" + host_name() + "-" + std::to_string(getpid())),
+        transport_(network_of(site, Role::tracker)),
+        bus_(transport_.join({this_participant(Role::tracker, name_, site),
                               {Topic::pose, Topic::event},
                               {},
                               strength})) {}
@@ -99,11 +100,13 @@ class Publisher {
       if (pose.level < TrackingLevel::held)
         bus_->publish(PoseMessage{.pose = pose,
                                   .sent_time = now,
-                                  .followed = followed && followed->object == pose.object});
+                                  .followed = followed && followed->object == pose.object,
+                                  .tracker = name_});
   }
   void publish(const EventMessage& event) { bus_->publish(event); }
 
  private:
+  std::string name_;
   DdsTransport transport_;
   std::unique_ptr<Bus> bus_;
 };

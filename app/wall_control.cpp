@@ -179,11 +179,12 @@ void add_stop(CLI::App& parent, Action& chosen) {
     chosen = [command] {
       const Site site = load_site(command->wall_file);
       if (has_hosts(site)) return stop_on_hosts(site, command->engine);
-      const int asked = ask(*command, Verb::stop, "");
+      DdsTransport transport(network_of(site, Role::console));
+      stop_wall(transport, this_console(site), from_seconds(command->timeout_s));
       if (!wait_until_ended(site.cluster, std::chrono::seconds(10)))
         throw Error({"has not ended within ten seconds", site.cluster.name,
                      "end its launcher: pkill -f 'vindu launch'"});
-      return asked;
+      return 0;
     };
   });
 }

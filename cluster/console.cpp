@@ -1,6 +1,9 @@
 #include "cluster/console.h"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "core/error.h"
 
@@ -10,51 +13,104 @@ namespace {
 /// So long a wall may take to be found; with keys, and many hosts, some seconds.
 constexpr Duration kSearch = std::chrono::seconds(10);
 
-[[noreturn]] void no_answer(const std::optional<Participant>& master,
-                            const std::optional<Participant>& other, const Participant& self) {
-  if (other) throw Error({version_complaint(self, *other), "the wall", ""});
-  if (!master)
+/// A command on its way, until it is answered or the master has gone.
+class Asking {
+ public:
+  Asking(Transport& transport, Participant self, const Request& request, Duration patience)
+      : self_(std::move(self)),
+        bus_(transport.join({self_, {Topic::command}, {Topic::answer, Topic::presence}})),
+        patience_(patience),
+        command_{.sender = self_.name,
+                 .request = static_cast<std::uint64_t>(begin_.time_since_epoch().count()) | 1,
+                 .verb = request.verb,
+                 .argument = request.argument,
+                 .clip = request.clip} {}
+
+  /// Asks when it is time to, and waits for what comes.
+  void turn() {
+    if (const Time now = std::chrono::steady_clock::now(); now >= next_) {
+      bus_->publish(command_);
+      next_ = now + kAskAgain;
+    }
+    bus_->wait({Topic::answer, Topic::presence}, std::min(next_, limit()));
+    for (const Presence& presence : bus_->take<Presence>())
+      if (presence.who.role == Role::master) hear(presence);
+    for (AnswerMessage& answer : bus_->take<AnswerMessage>())
+      if (answer.sender == self_.name && answer.request == command_.request)
+        answer_ = std::move(answer);
+  }
+
+  bool patient() const { return std::chrono::steady_clock::now() < limit(); }
+  const std::optional<AnswerMessage>& answer() const { return answer_; }
+  bool master_left() const { return master_left_; }
+
+  /// Throws Error with why nobody answers.
+  [[noreturn]] void give_up() const {
+    if (other_) throw Error({version_complaint(self_, *other_), "the wall", ""});
+    if (!master_)
+      throw Error(
+          {"no master is found", "the wall",
+           "start one (vindu launch), or name the wall file that it was started with (--wall)"});
     throw Error(
-        {"no master is found", "the wall",
-         "start one (vindu launch), or name the wall file that it was started with (--wall)"});
-  throw Error(
-      {"does not answer", "the master on " + master->host,
-       "look at its lines (vindu logs; of a wall on one machine, where vindu launch runs), or "
-       "start "
-       "it again; a wall with keys answers to them alone ([cluster] keys in the wall file)"});
+        {"does not answer", "the master on " + master_->host,
+         "look at its lines (vindu logs; of a wall on one machine, where vindu launch runs), or "
+         "start it again; a wall with keys answers to them alone ([cluster] keys in the wall "
+         "file)"});
+  }
+
+ private:
+  void hear(const Presence& presence) {
+    if (presence.change == PresenceChange::other_version)
+      other_ = presence.who;
+    else if (presence.change != PresenceChange::left)
+      master_ = presence.who;
+    else if (master_ == presence.who)
+      master_left_ = true;
+  }
+
+  /// Who is found has longer to answer than there is to find him.
+  Time limit() const { return begin_ + (master_ ? patience_ : std::min(patience_, kSearch)); }
+
+  const Participant self_;
+  const std::unique_ptr<Bus> bus_;
+  const Time begin_ = std::chrono::steady_clock::now();
+  const Duration patience_;
+  const CommandMessage command_;
+  Time next_ = begin_;
+  std::optional<Participant> master_, other_;
+  std::optional<AnswerMessage> answer_;
+  bool master_left_ = false;  // the one that was found
+};
+
+void expect_short(const Request& request) {
+  for (const std::string& text : {request.argument, request.clip})
+    if (text.size() > kLongestArgument)
+      throw Error({"is too long, " + std::to_string(text.size()) + " characters",
+                   text.substr(0, 40) + "...",
+                   "name it in " + std::to_string(kLongestArgument) + " at most"});
 }
 
 }  // namespace
 
 AnswerMessage ask_wall(Transport& transport, const Participant& self, const Request& request,
                        Duration patience) {
-  for (const std::string& text : {request.argument, request.clip})
-    if (text.size() > kLongestArgument)
-      throw Error({"is too long, " + std::to_string(text.size()) + " characters",
-                   text.substr(0, 40) + "...",
-                   "name it in " + std::to_string(kLongestArgument) + " at most"});
-  const auto bus = transport.join({self, {Topic::command}, {Topic::answer, Topic::presence}});
-  const Time begin = std::chrono::steady_clock::now();
-  const auto number = static_cast<std::uint64_t>(begin.time_since_epoch().count()) | 1;
-  std::optional<Participant> master, other;
-  const auto until = [&] { return begin + (master ? patience : std::min(patience, kSearch)); };
-  for (Time next = begin; std::chrono::steady_clock::now() < until();) {
-    if (std::chrono::steady_clock::now() >= next) {
-      bus->publish(CommandMessage{.sender = self.name,
-                                  .request = number,
-                                  .verb = request.verb,
-                                  .argument = request.argument,
-                                  .clip = request.clip});
-      next = std::chrono::steady_clock::now() + kAskAgain;
-    }
-    bus->wait({Topic::answer, Topic::presence}, std::min(next, until()));
-    for (const Presence& presence : bus->take<Presence>())
-      if (presence.who.role == Role::master)
-        (presence.change == PresenceChange::other_version ? other : master) = presence.who;
-    for (AnswerMessage& answer : bus->take<AnswerMessage>())
-      if (answer.sender == self.name && answer.request == number) return answer;
+  expect_short(request);
+  Asking asking(transport, self, request, patience);
+  while (!asking.answer() && asking.patient()) asking.turn();
+  if (!asking.answer()) asking.give_up();
+  return *asking.answer();
+}
+
+void stop_wall(Transport& transport, const Participant& self, Duration patience) {
+  Asking asking(transport, self, {.verb = Verb::stop}, patience);
+  while (!asking.master_left() && asking.patient()) {
+    asking.turn();
+    if (asking.answer()) expect_done(*asking.answer());
   }
-  no_answer(master, other, self);
+  if (asking.master_left()) return;
+  if (!asking.answer()) asking.give_up();
+  throw Error({"was told to end and has not", "the master",
+               "wait longer (--timeout), or end it where it runs: pkill -f 'vindu master'"});
 }
 
 void expect_done(const AnswerMessage& answer) {

@@ -27,6 +27,10 @@ struct Request {
 AnswerMessage ask_wall(Transport& transport, const Participant& self, const Request& request,
                        Duration patience);
 
+/// Asks the wall to stop, and returns when its master has gone, whoever else asked for that. Throws
+/// Error as ask_wall does, and where it does not go.
+void stop_wall(Transport& transport, const Participant& self, Duration patience);
+
 /// Throws Error with what the wall said where it did not do it.
 void expect_done(const AnswerMessage& answer);
 

@@ -19,7 +19,7 @@
 namespace vindu {
 
 /// Two Vindus understand each other when this is equal; it names every topic.
-constexpr int kProtocolVersion = 3;
+constexpr int kProtocolVersion = 4;
 
 /// Master to tiles, repeated: whole and idempotent, the newest is all that a tile needs.
 struct FrameMessage {
@@ -85,6 +85,7 @@ struct StatusMessage {
   std::string version{};
   std::string error{};  ///< the last one; empty: none
   DrawFigures draw{};
+  std::uint32_t process = 0;  ///< its id on that host
 };
 
 /// Master to all, every second: what it alone knows of a tile, or of the wall.
@@ -97,6 +98,7 @@ struct ReportMessage {
   std::uint32_t restarts = 0;
   TrackingLevel level = TrackingLevel::lost;  ///< of the head that the wall follows
   std::string event{};                        ///< the last of these; empty: none
+  std::string tracker{};  ///< wall: whose poses it follows; empty: of no tracker elsewhere
 };
 
 /// Master to tiles: what to load. Files travel otherwise.
@@ -118,7 +120,7 @@ struct PoseMessage {
   PoseSample pose{};      ///< its times are the tracker's clock's
   Time sent_time{};       ///< the tracker's clock
   bool followed = false;  ///< the tracker's choice: the wall shows this one's view
-  std::string user_data{};
+  std::string tracker{};  ///< who says it, as in its Participant
 };
 
 /// Master to all: the thesis' camera event.

@@ -163,9 +163,10 @@ void WallMaster::hear(const StatusMessage& status, Time now) {
   const auto found = tiles_.find(status.tile);
   if (found == tiles_.end()) return warn_once(status.tile, "is no tile of this wall: left out");
   if (!speaks_for(status.tile, status.incarnation, now)) {
-    const std::string followed = found->second.status ? found->second.status->host : "another host";
-    return warn_once(status.tile, fmt::format("runs twice, on {} and on {}: end one of them",
-                                              status.host, followed));
+    const StatusMessage followed = found->second.status.value_or(StatusMessage{});
+    return warn_once(status.tile,
+                     fmt::format("runs twice, as process {} on {} and {} on {}: end one of them",
+                                 status.process, status.host, followed.process, followed.host));
   }
   const std::optional<StatusMessage>& before = found->second.status;
   if (!before || before->state != status.state || before->scene_revision != status.scene_revision)

@@ -15,6 +15,7 @@ namespace {
 constexpr auto kBeats = std::chrono::seconds(2);
 constexpr auto kStill = std::chrono::milliseconds(500);
 constexpr auto kTwin = std::chrono::seconds(1);  // after its last word it is gone
+constexpr const char* kMissing = "missing";      // as a TileNow begins
 constexpr const char* kEvicted = "evicted";
 
 /// A tile that says ready does not know that the others no longer wait for it; the master does.
@@ -107,13 +108,19 @@ std::string text_of(const std::vector<Row>& rows) {
   return text;
 }
 
+/// "27 of 28". A master with another wall file may have more.
+std::string locked_of(const WallNow& wall) {
+  if (wall.active_tiles > wall.tiles.size()) return std::to_string(wall.active_tiles);
+  return fmt::format("{} of {}", wall.active_tiles, wall.tiles.size());
+}
+
 std::string master_line(const WallNow& wall) {
   if (!wall.master) return "no master\n";
   std::string text = "master on " + wall.master->host;
   if (wall.frame == 0) return text + ", no frame yet\n";
-  text += fmt::format(": frame {}, {:.1f} fps{}, {} of {} tiles in the frame lock", wall.frame,
-                      wall.frames_per_s, wall.still ? " since nothing changes" : "",
-                      wall.active_tiles, wall.tiles.size());
+  text +=
+      fmt::format(": frame {}, {:.1f} fps{}, {} tiles in the frame lock", wall.frame,
+                  wall.frames_per_s, wall.still ? " since nothing changes" : "", locked_of(wall));
   if (wall.report && wall.report->frames.tracked)
     text += fmt::format(", eye {}", name_of(wall.report->level));
   if (wall.pattern != Pattern::none) text += fmt::format(", pattern {}", name_of(wall.pattern));
@@ -141,13 +148,24 @@ std::string report_text(const WallNow& wall) {
   return text + " ms\n";
 }
 
+/// They may have been given up, which nobody on the bus hears of.
+std::string missing_text(const WallNow& wall) {
+  std::vector<std::string> names;
+  for (const TileNow& tile : wall.tiles)
+    if (tile.state == kMissing) names.push_back(tile.name);
+  if (!wall.master || names.empty()) return "";
+  return fold_names(names) +
+         ": no word; see its lines (vindu logs; of a wall on one machine, where vindu launch "
+         "runs)\n";
+}
+
 }  // namespace
 
 bool WallNow::good() const {
   return master && complaints.empty() && std::ranges::all_of(tiles, &TileNow::good);
 }
 
-bool TileNow::good() const { return state == name_of(TileState::ready) && twin.empty(); }
+bool TileNow::good() const { return state == name_of(TileState::ready) && !twin; }
 
 WallView::WallView(const std::vector<std::string>& tiles, Participant self)
     : roll_(std::move(self)) {
@@ -160,7 +178,7 @@ void WallView::poll(Bus& bus, Time now) {
   for (const FrameMessage& frame : bus.take<FrameMessage>()) hear(frame, now);
   for (const ReportMessage& report : bus.take<ReportMessage>()) hear(report);
   for (TileNow& tile : now_.tiles)
-    if (now - twins_heard_[tile.name] > kTwin) tile.twin.clear();
+    if (now - twins_heard_[tile.name] > kTwin) tile.twin.reset();
 }
 
 TileNow* WallView::find(const std::string& tile) {
@@ -173,7 +191,7 @@ void WallView::hear(const StatusMessage& status, Time now) {
   if (!tile) return;
   const Succession::Voice voice = processes_[status.tile].hear(status.incarnation, now);
   if (voice == Succession::Voice::twin) {
-    tile->twin = status.host;
+    tile->twin = {status.host, status.process};
     twins_heard_[status.tile] = now;
     return;
   }
@@ -224,13 +242,16 @@ void WallView::hear(const ReportMessage& report) {
 
 std::string table_of(const WallNow& wall) {
   std::string text = master_line(wall) + report_text(wall) + text_of(rows_of(wall));
-  for (const std::string& tracker : wall.trackers) text += "tracker " + tracker + "\n";
+  for (const std::string& tracker : wall.trackers)
+    text += tracker +
+            (wall.report && wall.report->tracker == tracker ? " is heard\n" : " is in reserve\n");
   for (const TileNow& tile : wall.tiles)
-    if (!tile.twin.empty())
-      text += fmt::format("{} runs twice, on {} and on {}: end one of them\n", tile.name, tile.twin,
+    if (tile.twin)
+      text += fmt::format("{} runs twice, as process {} on {} and {} on {}: end one of them\n",
+                          tile.name, tile.twin->process, tile.twin->host, tile.last.process,
                           tile.last.host);
   for (const std::string& complaint : wall.complaints) text += complaint + "\n";
-  return text;
+  return text + missing_text(wall);
 }
 
 std::string summary_of(const WallNow& wall) {

@@ -22,7 +22,12 @@ struct TileNow {
   StatusMessage last{};                   ///< the newest that it said
   std::optional<ReportMessage> report{};  ///< the master's newest about it
   int restarts = 0;                       ///< as the master counted, or since this console listens
-  std::string twin{};                     ///< host of an older process for it; empty: none
+  /// An older process for it, that still speaks.
+  struct Twin {
+    std::string host;
+    std::uint32_t process;
+  };
+  std::optional<Twin> twin{};
 
   bool good() const;  ///< ready, and in the frame lock
 };

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace vindu {
 
@@ -32,6 +34,13 @@ constexpr std::optional<Pattern> pattern_from(std::string_view name) {
   for (const Pattern pattern : kPatterns)
     if (name_of(pattern) == name) return pattern;
   return std::nullopt;
+}
+
+/// "none", "grid", ...
+inline std::vector<std::string> pattern_names() {
+  std::vector<std::string> names;
+  for (const Pattern pattern : kPatterns) names.emplace_back(name_of(pattern));
+  return names;
 }
 
 }  // namespace vindu

@@ -117,6 +117,7 @@ void fields(Op& op, Wire& wire, Value& status) {
   op.count(wire.triangles, status.draw.triangles);
   op.number(wire.culled_share, status.draw.culled_share, kShare);
   op.number(wire.memory_bytes, status.draw.memory_bytes, kBytes);
+  op.count(wire.process, status.process);
 }
 
 template <class Op, class Wire, class Value>
@@ -147,6 +148,7 @@ void fields(Op& op, Wire& wire, Value& report) {
   op.count(wire.restarts, report.restarts);
   op.choice(wire.level, report.level, TrackingLevel::lost);
   op.text(wire.event, report.event);
+  op.text(wire.tracker, report.tracker);
 }
 
 template <class Op, class Wire, class Value>
@@ -183,7 +185,7 @@ void fields(Op& op, Wire& wire, Value& message) {
   pose_fields(op, wire, message.pose);
   op.time(wire.sent_time_ns, message.sent_time);
   op.flag(wire.followed, message.followed);
-  op.text(wire.user_data, message.user_data);
+  op.text(wire.tracker, message.tracker);
 }
 
 template <class Op, class Wire, class Value>

@@ -75,7 +75,7 @@ FrameMessage frame(std::uint64_t number) { return {.epoch = 1, .newest = {.numbe
 StatusMessage status_of(const std::string& tile) {
   return {.tile = tile, .incarnation = 1, .renderer = "llvmpipe"};
 }
-PoseMessage pose_of(const std::string& source) { return {.user_data = source}; }
+PoseMessage pose_of(const std::string& source) { return {.tracker = source}; }
 
 TEST_P(BusTest, CarriesAFrameAsItIs) {
   const auto master = join("master", {Topic::frame}, {});
@@ -182,19 +182,19 @@ TEST_P(BusTest, HearsTheStrongerPoseAndTheWeakerOnceThatStops) {
       if (tracker_speaks) tracker->publish(pose_of("tracker"));
       reserve->publish(pose_of("reserve"));
       reader->wait({Topic::pose}, in_ms(5));
-      for (const PoseMessage& pose : reader->take<PoseMessage>()) sources.insert(pose.user_data);
+      for (const PoseMessage& pose : reader->take<PoseMessage>()) sources.insert(pose.tracker);
     }
     return sources;
   };
   send_until_heard(*reserve, pose_of("reserve"), *reader);
-  while (send_until_heard(*tracker, pose_of("tracker"), *reader).user_data != "tracker") {
+  while (send_until_heard(*tracker, pose_of("tracker"), *reader).tracker != "tracker") {
   }
 
   EXPECT_THAT(sources_heard(true), ElementsAre("tracker"));
-  while (send_until_heard(*reserve, pose_of("reserve"), *reader).user_data != "reserve") {
+  while (send_until_heard(*reserve, pose_of("reserve"), *reader).tracker != "reserve") {
   }
   EXPECT_THAT(sources_heard(false), ElementsAre("reserve"));
-  while (send_until_heard(*tracker, pose_of("tracker"), *reader).user_data != "tracker") {
+  while (send_until_heard(*tracker, pose_of("tracker"), *reader).tracker != "tracker") {
   }
   EXPECT_THAT(sources_heard(true), ElementsAre("tracker"));
 }
@@ -287,7 +287,7 @@ TEST_P(BusTest, SendsNothingThatNoReaderWouldTake) {
   send_until_heard(*tracker, pose_of("good"), *reader);
 
   tracker->publish(bad);
-  EXPECT_EQ(send_until_heard(*tracker, pose_of("good"), *reader).user_data, "good");
+  EXPECT_EQ(send_until_heard(*tracker, pose_of("good"), *reader).tracker, "good");
 }
 
 TEST_P(BusTest, WaitsForTheTopicsThatItIsAskedForAndNoLongerThanItIsTold) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <thread>
 
 #include "cluster/in_process.h"
@@ -83,6 +84,39 @@ TEST_F(Consoles, SayThatTheMasterDoesNotAnswer) {
 TEST_F(Consoles, SayThatTheMasterIsOfAnotherVersion) {
   const auto bus = join_master(kProtocolVersion + 1);
   EXPECT_THAT(complaint(), HasSubstr("speaks protocol"));
+}
+
+TEST_F(Consoles, ThatStopAWallWaitUntilItsMasterHasGone) {
+  auto bus = join_master();
+  CommandDesk desk(*bus, "master");
+  std::atomic<bool> gone = false;
+  std::jthread master([&] {
+    std::vector<CommandMessage> asked;
+    while (asked.empty()) {
+      bus->wait({Topic::command}, in_ms(10));
+      asked = desk.take();
+    }
+    desk.answer(asked.front(), true);
+    std::this_thread::sleep_for(300ms);
+    gone = true;
+    bus.reset();
+  });
+  stop_wall(transport_, console("c"), 60s);
+  EXPECT_TRUE(gone);
+}
+
+TEST_F(Consoles, NeedNoAnswerOfAMasterThatAnotherOneStopped) {
+  auto bus = join_master();
+  std::jthread master([&] {
+    std::this_thread::sleep_for(300ms);
+    bus.reset();
+  });
+  EXPECT_NO_THROW(stop_wall(transport_, console("c"), 60s));
+}
+
+TEST_F(Consoles, SayThatAMasterDoesNotEnd) {
+  const auto bus = join_master();
+  EXPECT_THROW(stop_wall(transport_, console("c"), 50ms), Error);
 }
 
 TEST_F(Consoles, TheDeskGivesTheSameAnswerToARepeatedCommand) {

@@ -73,7 +73,8 @@ StatusMessage status(Random& random) {
                    .gpu_ms = random.uniform(0, 100),
                    .triangles = id(random),
                    .culled_share = random.uniform(0, 1),
-                   .memory_bytes = random.uniform(0, 1e12)}};
+                   .memory_bytes = random.uniform(0, 1e12)},
+          .process = static_cast<std::uint32_t>(random.uniform(0, 4e6))};
 }
 
 Quantiles quantiles(Random& random) {
@@ -87,7 +88,8 @@ ReportMessage report(Random& random) {
                        .evictions = static_cast<std::uint32_t>(random.uniform(0, 1e6)),
                        .restarts = static_cast<std::uint32_t>(random.uniform(0, 1e6)),
                        .level = choice(random, TrackingLevel::lost),
-                       .event = text(random, 250)};
+                       .event = text(random, 250),
+                       .tracker = text(random, 250)};
   report.frames = {.frames = id(random),
                    .frames_per_s = random.uniform(0, 100),
                    .tracked = random.uniform(0, 1) < 0.5,
@@ -101,7 +103,7 @@ PoseMessage pose(Random& random) {
   PoseMessage message{.pose = {},
                       .sent_time = time(random),
                       .followed = random.uniform(0, 1) < 0.5,
-                      .user_data = text(random, 60)};
+                      .tracker = text(random, 60)};
   message.pose.object = static_cast<int>(random.uniform(-100, 100));
   message.pose.time = time(random);
   message.pose.capture_time = time(random);

@@ -31,15 +31,16 @@ class Views : public ::testing::Test {
     return names;
   }
 
-  void say(const std::string& tile, TileState state = TileState::ready,
-           std::uint64_t incarnation = 1, const std::string& error = "") {
+  void say(const std::string& tile, TileState state = TileState::ready, std::uint32_t process = 1,
+           const std::string& error = "") {
     view_.hear(StatusMessage{.tile = tile,
                              .host = "node",
-                             .incarnation = incarnation,
+                             .incarnation = process,
                              .state = state,
                              .presented = 100,
                              .frames_per_s = 59.9,
-                             .error = error},
+                             .error = error,
+                             .process = process},
                kNow);
   }
 
@@ -199,10 +200,33 @@ TEST_F(Views, NameATileThatRunsTwiceAndFollowTheNewerProcess) {
     say("tile-3-1");
   }
   EXPECT_THAT(table_of(view_.now()),
-              AllOf(ContainsRegex("tile-3-1 +loading"), HasSubstr("tile-3-1 runs twice")));
+              AllOf(ContainsRegex("tile-3-1 +loading"),
+                    HasSubstr("tile-3-1 runs twice, as process 1 on node and 2 on node")));
   EXPECT_EQ(view_.now().tiles[10].restarts, 1);
   say("tile-3-1", TileState::ready, 2);
   EXPECT_FALSE(view_.now().good());
+}
+
+TEST_F(Views, NameTheTrackerThatIsHeard) {
+  for (const char* name : {"tracker-a-1", "tracker-b-2"})
+    view_.hear(Presence{PresenceChange::joined, {.role = Role::tracker, .name = name}});
+  ReportMessage report = report_of("", 0.4);
+  report.tracker = "tracker-b-2";
+  view_.hear(report);
+  EXPECT_THAT(table_of(view_.now()),
+              AllOf(HasSubstr("tracker-a-1 is in reserve"), HasSubstr("tracker-b-2 is heard")));
+}
+
+TEST_F(Views, OfAMasterWithALargerWallDoNotSayThreeOfTwo) {
+  view_.hear(FrameMessage{.epoch = 1, .newest = {.number = 7}, .active_tiles = 29}, kNow);
+  EXPECT_THAT(table_of(view_.now()), HasSubstr(", 29 tiles in the frame lock"));
+}
+
+TEST_F(Views, SayWhereToLookForWhatIsMissing) {
+  WallView view({"tile-0-0", "tile-1-0"}, kSelf);
+  EXPECT_THAT(table_of(view.now()), Not(HasSubstr("vindu logs"))) << "nobody is there at all";
+  view.hear(Presence{PresenceChange::joined, kMaster});
+  EXPECT_THAT(table_of(view.now()), HasSubstr("tile-[0-1]-0: no word; see its lines"));
 }
 
 TEST_F(Views, TellOfOtherVersions) {

@@ -120,7 +120,7 @@ TEST_F(AskedWall, GivesPicturesOfOneFrameOfAllTilesAndNamesTheOneThatIsDead) {
   tiles[2].end();
   const ProcessResult less = capture("less", "5");
   EXPECT_EQ(less.exit_code, 1);
-  EXPECT_THAT(less.err, HasSubstr("tile-0-1"));
+  EXPECT_THAT(less.err, AllOf(HasSubstr("tile-0-1: no picture of frame"), HasSubstr(path(""))));
   EXPECT_THAT(files_in("less"), ::testing::ElementsAre("eye.png", "tile-0-0.png", "tile-1-0.png",
                                                        "tile-1-1.png", "wall.png"));
   EXPECT_EQ(numbers_in(path("less"), {"tile-0-0", "tile-1-0", "tile-1-1"}).size(), 1u);

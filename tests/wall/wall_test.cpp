@@ -169,8 +169,11 @@ TEST_F(WallTest, FollowsTheTrackerElsewhereAndTheNextOneWhenItDies) {
   Child tile = start_tile("tile-0-0");
   Child strong = start_tracker("20"), weak = start_tracker("5");
   Child master = start_master({"--tracker-elsewhere"}, "track");
-  await_log("poses come from a tracker elsewhere");
+  const auto end_of_name = [](const Child& tracker) { return fmt::format("-{}\n", tracker.id()); };
+  await_log("poses come from tracker-");
+  await_log(end_of_name(strong));
   strong.send(SIGKILL);
+  await_log(end_of_name(weak));
   await_swaps("tile-0-0.csv", 60);
   weak.send(SIGKILL);
   await_log("no tracker is heard any more");
