@@ -60,8 +60,8 @@ std::string json_of(const std::optional<TileNow::Twin>& twin) {
 std::string json_of(const TileNow& tile) {
   const StatusMessage& last = tile.last;
   return fmt::format(
-      R"({{"tile": {}, "host": {}, "state": {}, "process": {}, "twin": {}, "frame": {}, "fps": {:.2f}, )"
-      R"("late_frames": {}, )"
+      R"({{"tile": {}, "host": {}, "state": {}, "process": {}, "twin": {}, "frame": {}, )"
+      R"("fps": {:.2f}, "late_frames": {}, )"
       R"("restarts": {}, "scene": {}, "renderer": {}, "version": {}, "error": {}, )"
       R"("draw_ms": {:.3f}, "gpu_ms": {:.3f}, "triangles": {}, "culled_share": {:.4f}, )"
       R"("memory_bytes": {:.0f}, "report": {}}})",
