@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/log.h"
 
@@ -57,35 +60,55 @@ void CameraWarnings::look(const Tracker& tracker, Time now) {
   look_at_misfit(tracker, now);
 }
 
+CameraWarnings::Complaint::News CameraWarnings::Complaint::look(bool wrong, Time now) {
+  if (wrong) wrong_last_ = now;
+  if (wrong && !std::exchange(told_, true)) return News::begins;
+  if (!told_ || now - wrong_last_ <= kOver) return News::none;
+  told_ = false;
+  return News::over;
+}
+
+// Of two cameras nobody can say which is wrong. Where one of more was bumped, the others seem to
+// stand aside as well, by less.
 void CameraWarnings::look_at_cameras(const Tracker& tracker, Time now) {
+  using News = Complaint::News;
+  constexpr double kTold_px = 2;
   const auto health = tracker.camera_health();
+  const auto most = std::ranges::max_element(health, {}, &CameraHealth::aside_px);
   for (std::size_t i = 0; i < health.size(); ++i) {
     Camera& camera = cameras_[i];
-    if (health[i].moved) camera.moved_last = now;
-    if (health[i].moved && !camera.moved)
+    const bool is_most = health.begin() + static_cast<std::ptrdiff_t>(i) == most;
+    const bool aside = health.size() > 2 && is_most && health[i].aside_px > kTold_px;
+    const News moved = camera.moved.look(health[i].moved, now);
+    const News stands_aside = camera.aside.look(aside, now);
+    if (moved == News::begins)
       log_warning(camera.name,
                   "was moved: its dots do not fit what the others see, and count for less; "
                   "calibrate it again (vindu calibrate)");
-    if (camera.moved && now - camera.moved_last > kOver)
+    else if (stands_aside == News::begins && !camera.moved.told())
+      log_warning(camera.name,
+                  fmt::format("its dots stand {:.0f} px aside of where the others expect them: it "
+                              "was moved a little, or its calibration does not hold; calibrate it "
+                              "again (vindu calibrate)",
+                              health[i].aside_px));
+    const bool over = moved == News::over || stands_aside == News::over;
+    if (over && !camera.moved.told() && !camera.aside.told())
       log_info(camera.name, "agrees with the others again");
-    camera.moved = now - camera.moved_last <= kOver && (camera.moved || health[i].moved);
   }
 }
 
 void CameraWarnings::look_at_misfit(const Tracker& tracker, Time now) {
+  using News = Complaint::News;
   const Misfit misfit = misfit_of(tracker);
-  if (misfit.any()) misfit_last_ = now;
-  const bool news = (misfit.nothing_fits && !told_.nothing_fits) ||
-                    (misfit.contradiction && !told_.contradiction) || (misfit.size && !told_.size);
-  if (news)
+  const std::array news = {nothing_fits_.look(misfit.nothing_fits, now),
+                           contradiction_.look(misfit.contradiction, now),
+                           size_.look(misfit.size, now)};
+  if (std::ranges::find(news, News::begins) != news.end())
     log_warning("cameras", text_of(misfit, tracker) +
                                "; calibrate (vindu calibrate wand, vindu calibrate head)");
-  told_.nothing_fits |= misfit.nothing_fits;
-  told_.contradiction |= misfit.contradiction;
-  told_.size |= misfit.size;
-  if (!told_.any() || now - misfit_last_ <= kOver) return;
-  log_info("cameras", "agree with each other and with the heads again");
-  told_ = {};
+  if (std::ranges::find(news, News::over) != news.end() && !nothing_fits_.told() &&
+      !contradiction_.told() && !size_.told())
+    log_info("cameras", "agree with each other and with the heads again");
 }
 
 }  // namespace vindu::app

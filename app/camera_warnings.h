@@ -21,10 +21,23 @@ class CameraWarnings {
   std::string misfit(const Tracker& tracker) const;
 
  private:
+  /// Of one thing that may be wrong: what is to be told of it.
+  class Complaint {
+   public:
+    enum class News { none, begins, over };
+    News look(bool wrong, Time now);
+    bool told() const { return told_; }
+
+   private:
+    bool told_ = false;
+    Time wrong_last_{};
+  };
+  struct Camera {
+    std::string name;
+    Complaint moved{}, aside{};
+  };
   struct Misfit {
     bool nothing_fits = false, contradiction = false, size = false;
-
-    bool any() const { return nothing_fits || contradiction || size; }
   };
 
   Misfit misfit_of(const Tracker& tracker) const;
@@ -32,16 +45,9 @@ class CameraWarnings {
   void look_at_cameras(const Tracker& tracker, Time now);
   void look_at_misfit(const Tracker& tracker, Time now);
 
-  struct Camera {
-    std::string name;
-    bool moved = false;  // as it was told
-    Time moved_last{};
-  };
-
   std::vector<Camera> cameras_;
   Time looked_{};
-  Misfit told_;
-  Time misfit_last_{};
+  Complaint nothing_fits_, contradiction_, size_;
 };
 
 }  // namespace vindu::app

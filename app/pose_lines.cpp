@@ -27,6 +27,11 @@ std::string json_of(const ButtonChange& change, const Site& site, Duration shift
                      text_of(Buttons{change.button}), change.pressed);
 }
 
+/// The whole number next to it, unless that of before is nearly as near.
+double steadily_rounded(double value, double before) {
+  return std::abs(value - before) < 0.75 ? before : std::round(value);
+}
+
 }  // namespace
 
 PoseLines::PoseLines(const Site& site, std::vector<LookTarget> targets)
@@ -62,16 +67,18 @@ void PoseLines::add_health(const Tracker& tracker, Time time, Duration shift,
     lines.push_back(fmt::format(R"({{"t_ns":{},"disagreement_px":{},"heads_look_larger":{:.3f}}})",
                                 nanoseconds(time + shift), misfit.disagreement_px,
                                 0.005 * static_cast<double>(misfit.half_percents)));
-  const auto health = tracker.camera_health();
-  if (health == health_) return;
-  health_.resize(health.size());
-  for (std::size_t i = 0; i < health.size(); ++i)
-    if (health[i] != health_[i])
-      lines.push_back(
-          fmt::format(R"({{"t_ns":{},"camera":{},"moved":{},"device_time":{},"masks":{}}})",
-                      nanoseconds(time + shift), json_text(site_.cameras[i].name), health[i].moved,
-                      health[i].device_time, health[i].masks));
-  health_ = health;
+  const auto cameras = tracker.camera_health();
+  health_.resize(cameras.size());
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const CameraHealth& camera = cameras[i];
+    const Health health{camera.moved, camera.device_time, camera.masks,
+                        steadily_rounded(camera.aside_px, health_[i].aside_px)};
+    if (std::exchange(health_[i], health) == health) continue;
+    lines.push_back(fmt::format(
+        R"({{"t_ns":{},"camera":{},"moved":{},"device_time":{},"masks":{},"aside_px":{}}})",
+        nanoseconds(time + shift), json_text(site_.cameras[i].name), health.moved,
+        health.device_time, health.masks, health.aside_px));
+  }
 }
 
 }  // namespace vindu::app

@@ -32,7 +32,14 @@ class PoseLines {
   HeadGestures gestures_;
   std::map<int, PoseSample> said_;
   std::vector<GestureEvent> events_;
-  std::vector<CameraHealth> health_;
+  struct Health {  // of a camera, as it is said
+    bool moved = false, device_time = false;
+    std::size_t masks = 0;
+    double aside_px = 0;
+
+    bool operator==(const Health&) const = default;
+  };
+  std::vector<Health> health_;
   struct Misfit {  // as it is said
     long disagreement_px = 0;
     long half_percents = 0;  // that heads look larger

@@ -5,28 +5,28 @@
 
 namespace vindu {
 
-/// Mean and spread of what is left over, of the expected dots' picture.
-void CameraWatch::note_misfit(const Association& association, const DotList& dots) {
-  constexpr double kShare = 0.005, kLeastSpread_px = 20;
-  if (association.accepted.empty()) return;
-  const auto count = static_cast<double>(association.accepted.size());
-  const auto expected_px = [&](const AcceptedDot& dot) -> Vec2 {
-    return raw_px_of(dots[dot.dot]) - dot.residual_px;
-  };
+/// Mean and spread of what is left over, of the expected dots' picture. The first reports count for
+/// more, that a camera which is far off is known soon.
+void CameraWatch::note_misfit(std::span<const MisfitDot> dots) {
+  constexpr double kReports = 200, kLeastSpread_px = 20;
+  if (dots.empty()) return;
+  reports_ = std::min(kReports, reports_ + 1);
+  const double share = 1 / std::min(kReports, reports_ + 20);
+  const auto count = static_cast<double>(dots.size());
   Vec2 aside_px = Vec2::Zero(), middle_px = Vec2::Zero();
-  for (const AcceptedDot& dot : association.accepted) {
+  for (const MisfitDot& dot : dots) {
     aside_px += dot.residual_px / count;
-    middle_px += expected_px(dot) / count;
+    middle_px += dot.expected_px / count;
   }
-  aside_px_ += kShare * (aside_px - aside_px_);
+  aside_px_ += share * (aside_px - aside_px_);
   double outward_px2 = 0, spread_px2 = 0;
-  for (const AcceptedDot& dot : association.accepted) {
-    const Vec2 arm_px = expected_px(dot) - middle_px;
+  for (const MisfitDot& dot : dots) {
+    const Vec2 arm_px = dot.expected_px - middle_px;
     outward_px2 += arm_px.dot(dot.residual_px - aside_px);
     spread_px2 += arm_px.squaredNorm();
   }
   if (spread_px2 > kLeastSpread_px * kLeastSpread_px)
-    larger_ += kShare * (outward_px2 / spread_px2 - larger_);
+    larger_ += share * (outward_px2 / spread_px2 - larger_);
 }
 
 void CameraWatch::count(const Association& association) {

@@ -2,18 +2,26 @@
 // wrong places; it is named and trusted less, and never put right unasked.
 #pragma once
 
+#include <span>
+
 #include "core/clock.h"
 #include "tracker/joint/association.h"
 
 namespace vindu {
+
+/// A dot of a report, and where all cameras together expect it; raw pixels.
+struct MisfitDot {
+  Vec2 expected_px;
+  Vec2 residual_px;  ///< from there
+};
 
 /// Of one camera. Bound to one thread.
 class CameraWatch {
  public:
   /// A report of it, taken in while a head is tracked.
   void count(const Association& association);
-  /// The same, and the report's dots: for aside_px() and larger().
-  void note_misfit(const Association& association, const DotList& dots);
+  /// The same, by the report's dots: for aside_px() and larger().
+  void note_misfit(std::span<const MisfitDot> dots);
   /// Whether its dots fit what others see at the same time; some twenty times a second.
   void judge(bool fits);
 
@@ -38,6 +46,7 @@ class CameraWatch {
  private:
   Vec2 aside_px_ = Vec2::Zero();
   double larger_ = 0;
+  double reports_ = 0;       // that these rest on
   double disagreement_ = 0;  // running mean over about a second; 0: all fits, 1: nothing
   bool moved_ = false;
   int widenings_ = 0;

@@ -13,22 +13,7 @@ constexpr int kBaffled = 400;  // ten seconds: lamps are masked by then
 
 }  // namespace
 
-double Disagreement::sigma_of_look_px() const {
-  const auto tries = static_cast<std::size_t>(attempts_ / kLooks) % (kTried_px.size() + 1);
-  return tries == 0 ? sigma_px_ : std::max(sigma_px_, kTried_px[tries - 1]);
-}
-
-bool Disagreement::nothing_fits() const { return failed_ > kBaffled; }
-
-void Disagreement::look_failed(bool dots_enough) {
-  failed_ = std::clamp(failed_ + (dots_enough ? 1 : -1), 0, kBaffled + kLooks);
-  attempts_ = failed_ == 0 ? 0 : attempts_ + (dots_enough ? 1 : 0);
-}
-
-void Disagreement::look_succeeded(double sigma_px) {
-  failed_ = attempts_ = 0;
-  sigma_px_ = std::max(sigma_px_, sigma_px);
-}
+void Disagreement::found_with(double sigma_px) { sigma_px_ = std::max(sigma_px_, sigma_px); }
 
 void Disagreement::note_aside(double largest_px) {
   constexpr double kUsual_px = 1.2, kUp = 0.02, kDown = 0.001;
@@ -36,5 +21,17 @@ void Disagreement::note_aside(double largest_px) {
   sigma_px_ += (wanted_px > sigma_px_ ? kUp : kDown) * (wanted_px - sigma_px_);
   if (wanted_px == 0 && sigma_px_ < 0.1) sigma_px_ = 0;
 }
+
+void FailedLooks::add(bool dots_enough) {
+  failed_ = std::clamp(failed_ + (dots_enough ? 1 : -1), 0, kBaffled + kLooks);
+  attempts_ = failed_ == 0 ? 0 : attempts_ + (dots_enough ? 1 : 0);
+}
+
+double FailedLooks::tried_px() const {
+  const auto tries = static_cast<std::size_t>(attempts_ / kLooks) % (kTried_px.size() + 1);
+  return tries == 0 ? 0 : kTried_px[tries - 1];
+}
+
+bool FailedLooks::baffled() const { return failed_ > kBaffled; }
 
 }  // namespace vindu

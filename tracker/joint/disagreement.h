@@ -4,8 +4,6 @@
 // less.
 #pragma once
 
-#include "core/clock.h"
-
 namespace vindu {
 
 /// Of two cameras: of more, those that agree are right. Bound to one thread.
@@ -13,24 +11,32 @@ class Disagreement {
  public:
   /// What is to be added to the sigma of every dot, raw pixels; 0 where cameras agree.
   double sigma_px() const { return sigma_px_; }
-  /// For the next look for a head that is lost: the same, or more where looks have failed for long
-  /// though there were dots enough.
-  double sigma_of_look_px() const;
 
-  /// Whether looks have failed for seconds, whatever they allowed for.
-  bool nothing_fits() const;
-
-  /// `dots_enough`: that a head should have been found.
-  void look_failed(bool dots_enough);
   /// A head was found with that sigma.
-  void look_succeeded(double sigma_px);
+  void found_with(double sigma_px);
   /// How far the dots of a tracked head stand aside, as the mean over some seconds; with each
   /// report.
   void note_aside(double largest_px);
 
  private:
   double sigma_px_ = 0;
-  int failed_ = 0;    // looks though there were dots enough, less those where there were not
+};
+
+/// Looks for one head that have failed, and what the next one should therefore allow for.
+class FailedLooks {
+ public:
+  /// One failed. `dots_enough`: that the head should have been found.
+  void add(bool dots_enough);
+  void forget() { *this = {}; }
+
+  /// A sigma of dots for the next look; 0 at first and now and then, more where looks have failed
+  /// for long though there were dots enough.
+  double tried_px() const;
+  /// Whether they have failed for seconds, whatever they allowed for.
+  bool baffled() const;
+
+ private:
+  int failed_ = 0;    // though there were dots enough, less those where there were not
   int attempts_ = 0;  // of those, since failed_ was 0
 };
 

@@ -41,6 +41,15 @@ bool fits_closely(const FoundHead& found) {
          kLargest * static_cast<double>(std::max<std::ptrdiff_t>(2 * dots - 6, 1));
 }
 
+/// Few dots of more than half as many that are nobody's fit by chance, where cameras contradict
+/// each other.
+bool few_beside_many(const FoundHead& found) {
+  std::ptrdiff_t all = 0;
+  for (const auto& leds : found.led_of_dot) all += std::ssize(leds);
+  const std::ptrdiff_t own = dots_of(found);
+  return own < kManyDots && 2 * (all - own) > own;
+}
+
 /// The fewer dots agree, the more often they must, unless those of a tracked head agree even less.
 int looks_needed(const FoundHead& found, bool contradicted) {
   return dots_of(found) >= kManyDots || contradicted ? 2 : 4;
@@ -165,7 +174,7 @@ void JointMethod::judge(Entry& entry) {
       eye.statics.watch(raw_px, entry.seen.captured);
   }
   eye.watch.count(entry.association);
-  if (!options_.position_only) eye.watch.note_misfit(entry.association, entry.seen.dots);
+  if (!options_.position_only) eye.watch.note_misfit(misfit_of(entry));
   if (may_contradict()) note_disagreement();
   const double other_s = seconds(entry.other_time - entry.seen.captured);
   if (eye.clock.locked() && eye.watch.prefers_other_time(entry.association, other_s))
@@ -296,10 +305,10 @@ void JointMethod::look_for(std::size_t head, Time now) {
   if (seen.captured <= search.seen) return;  // the same reports prove nothing new
   search.seen = seen.captured;
   const HeadTrack& track = entries_[newest].after[head];
-  // Which of several heads it is could not be told; of several cameras those that agree are right.
-  const bool tolerant =
-      may_contradict() && searches_.size() == 1 && (!track.state || contradicted(head));
-  const double slack_px = tolerant ? disagreement_.sigma_of_look_px() : disagreement_.sigma_px();
+  // Of several cameras those that agree are right.
+  const bool tolerant = may_contradict() && (!track.state || contradicted(head));
+  const double slack_px =
+      std::max(disagreement_.sigma_px(), tolerant ? search.failed.tried_px() : 0);
   std::vector<CameraView> views;
   for (const std::size_t i : entries)
     views.push_back(
@@ -336,20 +345,37 @@ bool JointMethod::dots_enough(const Look& look, std::size_t head) const {
   return std::ranges::count_if(look.search.views(), all) >= 2;
 }
 
+/// Whether its dots are nearly as well another's, which nobody tracks. Heads that are tolerantly
+/// looked for are not to be taken for each other.
+bool JointMethod::may_be_another(const Look& look, std::size_t head, const FoundHead& found) const {
+  AcquisitionOptions options = acquisition_options({}, look.slack_px);
+  const double clear_by = std::exchange(options.least_margin, 0);
+  for (std::size_t other = 0; other < searches_.size(); ++other) {
+    if (other == head || newest_heads()[other].state) continue;
+    const auto rival = find_head(cameras_, look.search.views(), leds_of_heads_[other], options);
+    if (rival && rival->cost < found.cost + clear_by) return true;
+  }
+  return false;
+}
+
 // Looks in a row that find a head in one place are right: false dots do not repeat themselves.
 void JointMethod::conclude(std::size_t head) {
   Search& search = searches_[head];
   const Look& look = *search.look;
   const auto found = look.search.winner();
   const bool doubted = !look.tracked || contradicted(head);
-  const bool fits = found && (options_.position_only || fits_closely(*found)) &&
-                    (!look.tolerant || dots_of(*found) >= kManyDots);
+  const bool fits =
+      found && (options_.position_only || fits_closely(*found)) &&
+      (!look.tolerant || (dots_of(*found) >= kManyDots && !may_be_another(look, head, *found)));
   if (fits) judge_cameras(look.search.views(), *found);
   const bool known =
       fits && (found->believed || (look.tracked && !(look.tolerant && doubted) &&
                                    same_pose(found->fit.room_from_head, *look.tracked)));
   if (!fits || known) {
-    if (doubted && !options_.position_only) disagreement_.look_failed(dots_enough(look, head));
+    if (doubted)
+      search.failed.add(dots_enough(look, head));
+    else if (known)
+      search.failed.forget();
     return search.rumour.reset();
   }
   const Rigid3& pose = found->fit.room_from_head;
@@ -359,7 +385,11 @@ void JointMethod::conclude(std::size_t head) {
   if (search.confirmed < looks_needed(*found, look.tracked && doubted)) return;
   const auto newest = entry_of(look);
   if (!newest) return;
-  disagreement_.look_succeeded(look.tolerant ? look.slack_px : 0);
+  if (doubted && few_beside_many(*found))
+    search.failed.add(dots_enough(look, head));
+  else
+    search.failed.forget();
+  if (look.tolerant) disagreement_.found_with(look.slack_px);
   bear(head, *found, *newest);
 }
 

@@ -32,8 +32,7 @@ struct CameraHealth {
   bool moved = false;        ///< its dots do not fit what the others see
   bool device_time = false;  ///< its own clock is known; else arrivals are used
   std::size_t masks = 0;     ///< reflections that are ignored
-
-  bool operator==(const CameraHealth&) const = default;
+  double aside_px = 0;       ///< how far its dots stand from where all cameras expect them
 };
 
 /// Bound to one thread at a time.
@@ -66,7 +65,7 @@ class JointMethod {
   double heads_look_larger() const;
   /// Whether two cameras have seen dots enough for seconds that are no head's, whatever is allowed
   /// for.
-  bool nothing_fits() const { return disagreement_.nothing_fits(); }
+  bool nothing_fits() const;
 
  private:
   struct Entry {
@@ -109,7 +108,10 @@ class JointMethod {
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart, double slack_px) const;
   bool may_contradict() const;
   void note_disagreement();
+  std::vector<MisfitDot> misfit_of(const Entry& entry) const;
+  bool seen_by_others(const Entry& entry, std::size_t head) const;
   AcquisitionOptions acquisition_options(const HeadTrack& head, double slack_px) const;
+  bool may_be_another(const Look& look, std::size_t head, const FoundHead& found) const;
   bool dots_enough(const Look& look, std::size_t head) const;
   Duration pause_of_looks(std::size_t head) const;
   bool contradicted(std::size_t head) const;
@@ -138,8 +140,9 @@ class JointMethod {
     Time seen = Time::min();         // capture of the newest report of that look
     std::optional<Rigid3> rumour{};  // where the last look found it, unless it is tracked there
     int confirmed = 0;               // looks in a row that found it there
-    HeadTrack last{};                // that was tracked
-    Time sure{};                     // capture of the newest report when it was sure
+    FailedLooks failed{};
+    HeadTrack last{};  // that was tracked
+    Time sure{};       // capture of the newest report when it was sure
   };
   std::vector<Search> searches_;
 };

@@ -129,6 +129,43 @@ void JointMethod::add_misfit(std::size_t head, PoseSample& sample) const {
   }
 }
 
+/// Whether two cameras beside this one see it now.
+bool JointMethod::seen_by_others(const Entry& entry, std::size_t head) const {
+  constexpr Duration kLately = Milliseconds(80);
+  const HeadTrack& track = entry.after[head];
+  if (!track.state) return false;
+  int others = 0;
+  for (std::size_t camera = 0; camera < cameras_.size(); ++camera)
+    others += static_cast<int>(camera) != entry.seen.camera &&
+              entry.seen.captured - track.seen_by[camera] < kLately;
+  return others >= 2;
+}
+
+// Where others know well enough where a head is and none of the camera's dots is accepted, those
+// next to its LEDs tell how far the camera looks aside.
+std::vector<MisfitDot> JointMethod::misfit_of(const Entry& entry) const {
+  constexpr double kNext_px = 25;
+  std::vector<MisfitDot> dots;
+  for (const AcceptedDot& dot : entry.association.accepted)
+    dots.push_back({raw_px_of(entry.seen.dots[dot.dot]) - dot.residual_px, dot.residual_px});
+  if (!dots.empty() || entry.seen.dots.size() < 2) return dots;
+  const CameraModel& camera = cameras_[static_cast<std::size_t>(entry.seen.camera)];
+  for (std::size_t head = 0; head < leds_of_heads_.size(); ++head) {
+    if (!seen_by_others(entry, head)) continue;
+    for (const Vec3& led : leds_of_heads_[head]) {
+      const auto expected = dot_of_led(camera, entry.after[head].state->room_from_head, led);
+      if (!expected) continue;
+      Vec2 nearest_px = Vec2::Constant(kNext_px);
+      for (const Dot& dot : entry.seen.dots)
+        if (const Vec2 off_px = raw_px_of(dot) - expected->raw_px;
+            off_px.norm() < nearest_px.norm())
+          nearest_px = off_px;
+      if (nearest_px.norm() < kNext_px) dots.push_back({expected->raw_px, nearest_px});
+    }
+  }
+  return dots.size() < 2 ? std::vector<MisfitDot>{} : dots;
+}
+
 double JointMethod::heads_look_larger() const {
   double most = 0;
   for (const Eye& eye : eyes_)
@@ -137,12 +174,20 @@ double JointMethod::heads_look_larger() const {
   return eyes_.size() > 1 ? most : 0;
 }
 
+bool JointMethod::nothing_fits() const {
+  return !options_.position_only && std::ranges::any_of(searches_, [](const Search& search) {
+    return search.failed.baffled();
+  });
+}
+
 std::vector<CameraHealth> JointMethod::health() const {
+  const bool compared = eyes_.size() > 1 && !options_.position_only;
   std::vector<CameraHealth> health;
   for (const Eye& eye : eyes_)
     health.push_back({.moved = eye.watch.moved(),
                       .device_time = eye.uses_device_time && eye.clock.locked(),
-                      .masks = eye.statics.masks_px().size()});
+                      .masks = eye.statics.masks_px().size(),
+                      .aside_px = compared ? eye.watch.aside_px().norm() : 0});
   return health;
 }
 

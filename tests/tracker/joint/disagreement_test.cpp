@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <vector>
 
 namespace vindu {
 namespace {
@@ -33,34 +33,41 @@ TEST(Disagreement, ends_when_they_stand_aside_no_more) {
   EXPECT_EQ(disagreement.sigma_px(), 0);
 }
 
-TEST(Disagreement, is_allowed_for_in_looks_that_fail_though_there_are_dots_enough) {
+TEST(Disagreement, is_at_least_what_a_head_was_found_with) {
   Disagreement disagreement;
-  double most_px = 0;
+  disagreement.found_with(5);
+  disagreement.found_with(2);
+  EXPECT_EQ(disagreement.sigma_px(), 5);
+}
+
+TEST(FailedLooks, allow_for_more_and_more_and_for_nothing_in_between) {
+  FailedLooks looks;
+  std::vector<double> tried_px;
   for (int i = 0; i < 60; ++i) {
-    disagreement.look_failed(/*dots_enough=*/true);
-    most_px = std::max(most_px, disagreement.sigma_of_look_px());
+    looks.add(/*dots_enough=*/true);
+    if (tried_px.empty() || tried_px.back() != looks.tried_px())
+      tried_px.push_back(looks.tried_px());
   }
-  EXPECT_EQ(most_px, 12);
-  EXPECT_EQ(disagreement.sigma_px(), 0) << "nothing was found by it yet";
-  disagreement.look_succeeded(5);
-  EXPECT_EQ(disagreement.sigma_of_look_px(), 5);
+  EXPECT_EQ(tried_px, (std::vector<double>{0, 2, 5, 12, 0, 2}));
+  looks.forget();
+  EXPECT_EQ(looks.tried_px(), 0);
 }
 
-TEST(Disagreement, is_not_allowed_for_where_too_little_is_seen) {
-  Disagreement disagreement;
+TEST(FailedLooks, allow_for_nothing_where_too_little_is_seen) {
+  FailedLooks looks;
   for (int i = 0; i < 1000; ++i) {
-    disagreement.look_failed(/*dots_enough=*/i % 2 == 0);
-    EXPECT_EQ(disagreement.sigma_of_look_px(), 0);
-    EXPECT_FALSE(disagreement.nothing_fits());
+    looks.add(/*dots_enough=*/i % 2 == 0);
+    EXPECT_EQ(looks.tried_px(), 0);
+    EXPECT_FALSE(looks.baffled());
   }
 }
 
-TEST(Disagreement, is_given_up_after_seconds_and_forgotten_when_nobody_is_there) {
-  Disagreement disagreement;
-  for (int i = 0; i < 5000; ++i) disagreement.look_failed(true);
-  EXPECT_TRUE(disagreement.nothing_fits());
-  for (int i = 0; i < 100; ++i) disagreement.look_failed(false);
-  EXPECT_FALSE(disagreement.nothing_fits());
+TEST(FailedLooks, are_baffled_after_seconds_until_nobody_is_there) {
+  FailedLooks looks;
+  for (int i = 0; i < 5000; ++i) looks.add(true);
+  EXPECT_TRUE(looks.baffled());
+  for (int i = 0; i < 100; ++i) looks.add(false);
+  EXPECT_FALSE(looks.baffled());
 }
 
 }  // namespace

@@ -229,6 +229,44 @@ TEST_F(JointMethodTest, follows_a_head_though_two_cameras_contradict_each_other_
   }
 }
 
+/// Of two helmets, whose layouts differ, one is there.
+TEST_F(JointMethodTest, takes_no_head_for_another_though_two_cameras_contradict_each_other) {
+  const std::vector<CameraConfig> calibrated = configs_;
+  std::vector<HeadConfig> both(2);
+  both[0].leds_in_head = kThreeLeds;
+  both[1].leds_in_head = kFourLeds;
+  for (const double px : {5.0, 15.0})
+    for (const std::size_t there : {0u, 1u}) {
+      JointMethod method(calibrated, both);
+      configs_ = calibrated;
+      bump(0, px);
+      heads_ = {both[there]};
+      feed(method, 0, 20, [](double t) { return std::vector{walking(t)}; });
+      const Time end{milliseconds(19990)};
+      EXPECT_LT(error_m(method, there, end, walking(19.99)), 0.004 * px) << px << ", " << there;
+      const auto other = method.pose(1 - there, end);
+      EXPECT_TRUE(!other || other->level == TrackingLevel::lost) << px << ", " << there;
+      EXPECT_GE(method.disagreement_px(), 0.25 * px);
+    }
+}
+
+TEST_F(JointMethodTest, tracks_two_heads_though_two_cameras_contradict_each_other) {
+  heads_.resize(2);
+  heads_[1].leds_in_head = kFourLeds;
+  const auto both = [](double t) {
+    Rigid3 first = walking(t), other = walking(1.3 * t + 1);
+    first.translation.x() += 0.4;
+    other.translation.x() -= 0.55;
+    return std::vector{first, other};
+  };
+  JointMethod method(configs_, heads_);
+  bump(0, 8);
+  feed(method, 0, 20, both);
+  const Time end{milliseconds(19990)};
+  for (const std::size_t head : {0u, 1u})
+    EXPECT_LT(error_m(method, head, end, both(19.99)[head]), 0.03);
+}
+
 TEST_F(JointMethodTest, takes_a_camera_that_is_bumped_and_put_right_again_as_it_is) {
   const std::vector<CameraConfig> calibrated = configs_;
   JointMethod method(calibrated, heads_);
@@ -276,20 +314,27 @@ TEST_F(JointMethodTest, finds_no_contradiction_where_heads_are_taken_to_face_the
 }
 
 /// Two of three are right.
-TEST_F(JointMethodTest, follows_the_two_of_three_cameras_that_agree) {
+TEST_F(JointMethodTest, follows_the_two_of_three_cameras_that_agree_and_knows_which_stands_aside) {
   CameraConfig middle = configs_[0];
   middle.room_from_camera = look_at({0, 2.5, 5}, {0, 1.65, 2});
   configs_.push_back(middle);
-  JointMethod method(configs_, heads_);
-  bump(1, 21);
-  for (int k = 0; k < 2000; ++k) {
-    const Time time{milliseconds(10 * k)};
-    for (int camera = 0; camera < 3; ++camera)
-      method.absorb(seen_by(camera, {walking(0.01 * k)}, time));
-    method.update(time);
+  const std::vector<CameraConfig> calibrated = configs_;
+  for (const double px : {0.0, 4.0, 8.0, 21.0}) {
+    JointMethod method(calibrated, heads_);
+    configs_ = calibrated;
+    bump(0, px);
+    for (int k = 0; k < 2000; ++k) {
+      const Time time{milliseconds(10 * k)};
+      for (int camera = 0; camera < 3; ++camera)
+        method.absorb(seen_by(camera, {walking(0.01 * k)}, time));
+      method.update(time);
+    }
+    EXPECT_EQ(method.disagreement_px(), 0);
+    EXPECT_LT(error_m(method, 0, Time{milliseconds(19990)}, walking(19.99)), 0.02);
+    const auto health = method.health();
+    EXPECT_NEAR(health[1].aside_px, px, 0.5 * px + 0.3);
+    for (const int other : {0, 2}) EXPECT_LT(health[other].aside_px, 0.4 * px + 0.3) << px;
   }
-  EXPECT_EQ(method.disagreement_px(), 0);
-  EXPECT_LT(error_m(method, 0, Time{milliseconds(19990)}, walking(19.99)), 0.02);
 }
 
 TEST_F(JointMethodTest, says_that_dots_enough_fit_no_head) {
