@@ -4,12 +4,12 @@
 
 #include <cassert>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "app/runtime_folder.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/new_file.h"
 
 namespace vindu::app {
 namespace {
@@ -60,12 +60,10 @@ std::optional<Asked> AskedFile::take() {
 void AskedFile::keep(const Asked& asked) {
   if (session_.empty()) return;
   try {
-    const std::string file = path();
-    std::ofstream stream(file + ".new");
-    stream << text_of(asked, session_);
-    stream.close();
-    if (!stream) throw Error({"cannot be written", file, "free some space there"});
-    fs::rename(file + ".new", file);
+    const std::string remedy = "free some space there";
+    NewFile fresh(path());
+    fresh.write(text_of(asked, session_), remedy);
+    fresh.place(remedy);
   } catch (const std::exception& error) {
     if (!std::exchange(warned_, true))
       log_warning("master", std::string("would not know after a crash what it was asked for: ") +

@@ -8,6 +8,7 @@
 
 #include "app/runtime_folder.h"
 #include "core/log.h"
+#include "core/new_file.h"
 
 namespace vindu::app {
 namespace {
@@ -29,9 +30,9 @@ void forget_old(const std::string& folder, const std::string& tile) {
 
 void write(const std::string& folder, const std::string& file, const std::string& tile,
            const Image& picture) {
-  const std::string part = folder + "/" + file + ".part";
-  write_png(picture, part);
-  fs::rename(part, folder + "/" + file);  // whole or not at all
+  NewFile fresh(folder + "/" + file);
+  write_png(picture, fresh.beside());
+  fresh.place("free some space there");
   forget_old(folder, tile);
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/internal/calibration_reader.h"
+#include "core/new_file.h"
 
 namespace vindu {
 namespace {
@@ -78,23 +79,22 @@ std::string read_text(const std::string& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The new text never stands in the file in part: it is written beside it and renamed.
+/// What the file said before stands beside it afterwards.
 std::string replace_file(const std::string& wall_file, const std::string& name,
                          const std::string& text) {
   const std::string folder = calibration_folder(wall_file);
+  const std::string remedy = "make its folder writable, or copy the wall file";
   std::string file = folder + "/" + name + ".toml";
-  const std::string fresh = file + ".new";
   std::error_code error;
   fs::create_directories(folder, error);
-  std::ofstream stream(fresh, std::ios::binary);
-  stream << "# Written by vindu calibrate; it holds instead of what the wall file says.\n" << text;
-  stream.close();
-  if (!error && stream && fs::exists(file))
+  NewFile fresh(file);
+  fresh.write("# Written by vindu calibrate; it holds instead of what the wall file says.\n" + text,
+              remedy);
+  if (fs::exists(file))
     fs::copy_file(file, folder + "/" + name + ".previous.toml",
                   fs::copy_options::overwrite_existing, error);
-  if (!error && stream) fs::rename(fresh, file, error);
-  if (error || !stream)
-    throw Error({"cannot be written", file, "make its folder writable, or copy the wall file"});
+  if (error) throw Error({"cannot be copied: " + error.message(), file, remedy});
+  fresh.place(remedy);
   return file;
 }
 

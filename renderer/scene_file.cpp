@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <utility>
 
 #include "core/error.h"
+#include "core/new_file.h"
 #include "renderer/scene_archive.h"
 
 namespace vindu {
@@ -100,20 +100,15 @@ void write_scene_file(const PackedScene& packed, const std::string& file) {
   writer(packed);
   const std::vector<std::uint8_t> content = writer.take();
   const Header header{kMagic, kFormat, 0, content.size(), checksum_of(content)};
-  // Beside it first, and then in one step into its place.
-  const std::string beside = unfinished_scene_file(file, getpid());
-  {
-    std::ofstream stream(beside, std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(&header), sizeof(Header));
-    stream.write(reinterpret_cast<const char*>(content.data()),
-                 static_cast<std::streamsize>(content.size()));
-    stream.flush();
-    std::error_code unable;
-    if (stream) std::filesystem::rename(beside, file, unable);
-    if (stream && !unable) return;
-    std::filesystem::remove(beside, unable);
-  }
-  throw Error({"cannot be written", file, "see whether the disk is full, or choose another --out"});
+  const std::string remedy = "see whether the disk is full, or choose another --out";
+  NewFile fresh(file, unfinished_scene_file(file, getpid()));
+  std::ofstream stream(fresh.beside(), std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(&header), sizeof(Header));
+  stream.write(reinterpret_cast<const char*>(content.data()),
+               static_cast<std::streamsize>(content.size()));
+  stream.close();
+  if (!stream) throw Error({"cannot be written", file, remedy});
+  fresh.place(remedy);
 }
 
 PackedScene read_scene_file(const std::string& file) {

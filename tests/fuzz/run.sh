@@ -61,7 +61,7 @@ wire() {
 # Seeded with good scenes.
 scene() {
   local sources=("$root"/renderer/{mipmaps,packed_scene,scene,scene_file,skinning,surface_kind}.cpp
-    "$root"/core/error.cpp -isystem /usr/include/eigen3 -lstb)
+    "$root"/core/{error,new_file}.cpp -isystem /usr/include/eigen3 -lstb)
   mkdir -p "$root/build/fuzz/scene/corpus"
   clang++ -std=c++20 -I"$root" "$root/tests/fuzz/scene_seeds.cpp" "${sources[@]}" \
     -o "$root/build/fuzz/scene/seeds"

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/new_file.h"
 
 namespace vindu::internal {
 namespace {
@@ -55,14 +56,15 @@ std::string read_key_file(const fs::path& file) {
 void write_key_file(const fs::path& file, const std::string& text) {
   make_folder(file.parent_path());
   std::error_code error;
-  const fs::path part = file.string() + ".part";
-  fs::remove(part, error);
-  const int handle = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+  NewFile fresh(file);
+  fs::remove(fresh.beside(), error);
+  const int handle =
+      open(fresh.beside().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (handle < 0) fail(file, "cannot be written", "choose another folder (--out)");
   write_all(handle, text, file);
   fsync(handle);
   close(handle);
-  if (rename(part.c_str(), file.c_str()) != 0) fail(file, "cannot be written", "");
+  fresh.place("free some space");
 }
 
 void expect_private(const fs::path& file) {
