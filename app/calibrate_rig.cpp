@@ -163,6 +163,23 @@ double place_sigma_mm(const PlaceResult& place, const Rigid3& rig, const CameraC
                     distance_mm * focal_sigma_px(camera) / camera.intrinsics.fx_px);
 }
 
+/// Nobody measures that wrong: more likely the rig or the cameras are not where they were said to
+/// be. The place may be right all the same, so it is kept.
+void remark_on_place(const CameraConfig& camera, const PlaceResult& place) {
+  constexpr double kFar_m = 1;
+  constexpr double kTurned_deg = 30;
+  const Rigid3 off = inverse(camera.room_from_camera) * place.room_from_camera;
+  const double away_m = off.translation.norm();
+  const double turned_deg = degrees(Eigen::AngleAxisd(off.rotation).angle());
+  if (away_m < kFar_m && turned_deg < kTurned_deg) return;
+  log_warning(
+      camera.name,
+      fmt::format("was found {:.1f} m from where {} has it, turned by {:.0f} degrees: "
+                  "check --rig-at, --rig-heading-deg and --spacing-mm, that no two "
+                  "cameras are exchanged, and the camera's position_m",
+                  away_m, camera.calibration ? "its calibration" : "the wall file", turned_deg));
+}
+
 int extrinsics(const RigCommand& command) {
   const Grid grid = grid_of(command);
   const Site site = load_site(command.common.wall_file);
@@ -200,6 +217,7 @@ int extrinsics(const RigCommand& command) {
       fmt::print(
           "{}: at {:.3f} {:.3f} {:.3f} m in room, to {:.0f} mm; rms {:.2f} px of {} pictures\n",
           of_camera.camera, at.x(), at.y(), at.z(), sigma_mm, place.rms_px, place.pictures);
+    remark_on_place(run.site.cameras[i], place);
     if (run.truth && !command.common.json) {
       const Vec3& truth = run.truth->cameras[i].room_from_camera.translation;
       fmt::print("  the truth: {:.3f} {:.3f} {:.3f} m, {:.0f} mm away\n", truth.x(), truth.y(),

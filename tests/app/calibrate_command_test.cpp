@@ -130,6 +130,20 @@ TEST_F(CalibrateCommand, OfAPlaceIsNoSurerThanTheFocalLength) {
   EXPECT_LT(sigma_mm(), 60);
 }
 
+TEST_F(CalibrateCommand, OfAPlaceFarFromWhereTheCameraWasSaysSo) {
+  std::filesystem::create_directories(path("calibration"));
+  write("calibration/cameras.toml",
+        "[[calibrated_camera]]\nname = \"left\"\nposition_m = [6, 2.3, 5]\n"
+        "rotation_xyzw = [0, 0, 0, 1]\n");
+  const ProcessResult result =
+      vindu({"calibrate", "extrinsics", "--wall", wall_, "--spacing-mm", "250", "--dry-run"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("left: was found 7.0 m from where its calibration has it, turned by"),
+                    HasSubstr("--rig-at")));
+  EXPECT_THAT(result.err, ::testing::Not(HasSubstr("right")));
+}
+
 TEST_F(CalibrateCommand, ByARecordingOfCamerasThatWereOffIsRefused) {
   const std::string nothing = write("off.txt", "# vindu recording\n");
   const ProcessResult result = vindu({"calibrate", "wand", "--wall", wall_, "--from", nothing});
