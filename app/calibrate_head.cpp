@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/calibrate.h"
+#include "app/cameras.h"
 #include "app/common.h"
 #include "core/error.h"
 #include "tracker/calibration/head.h"
@@ -16,6 +17,7 @@ namespace {
 struct HeadCommand {
   CalibrateOptions common;
   std::string name;
+  std::optional<int> leds;
   HeadOptions head;
   std::optional<Vec3> eye_in_wall;
 };
@@ -96,9 +98,21 @@ void expect_eye_at_the_helmet(const Vec3& eye_in_head) {
                  "right and y up from the wall's middle, z away from it"});
 }
 
+/// Emulated cameras are shown the wall file's helmet: another one cannot be found there.
+void expect_the_emulated_helmet(const HeadCommand& command, const Site& site,
+                                const HeadConfig& known) {
+  if (!command.leds || !command.common.from.empty() || !all_emulated(site)) return;
+  const std::size_t leds = known.leds_in_head.size();
+  if (leds != static_cast<std::size_t>(*command.leds))
+    throw Error({fmt::format("is {}, and emulated cameras see the {} LEDs of {}", *command.leds,
+                             leds, known.name),
+                 "--leds", "leave it out, or give its leds_m in the wall file as many points"});
+}
+
 int calibrate_the_head(const HeadCommand& command) {
   const Site site = load_site(command.common.wall_file);
   const HeadConfig& known = head_named(command.name, site);
+  expect_the_emulated_helmet(command, site, known);
   const EmulatedWearer wearer(site, known, command.common.seed);
   CalibrateOptions common = command.common;
   Calibrating run = capture(
@@ -113,6 +127,7 @@ int calibrate_the_head(const HeadCommand& command) {
                    },
                .known_cameras = true});
   HeadOptions options = command.head;
+  options.leds = command.leds.value_or(options.leds);
   if (run.truth) options.leds = static_cast<int>(known.leds_in_head.size());
   if (run.truth && !command.eye_in_wall)
     options.eye_in_room = wearer.place_in_room + wearer.head.eye_in_head;
@@ -137,7 +152,8 @@ void add_calibrate_head(CLI::App& calibrate, Action& chosen) {
       "head", "Where a helmet's LEDs sit, and where the eye is, by calibrated cameras");
   add_calibrate_options(*app, command->common);
   app->add_option("--head", command->name, "Its name (default: the wall file's first)");
-  app->add_option("--leds", command->head.leds, "How many it has (default: 3)")
+  app->add_option("--leds", command->leds,
+                  "How many it has (default: 3, of emulated ones as the wall file says)")
       ->check(CLI::Range(3, 4));
   app->add_option("--still-s", command->head.still_s,
                   "So long the wearer stands still at first, facing the wall (default: 2)")

@@ -90,6 +90,12 @@ TEST_F(CalibrateCommand, OfAHeadWritesItsLedsAndWarnsOfSymmetry) {
   EXPECT_THAT(bytes_of(path("calibration/heads.toml")), HasSubstr("[[calibrated_head]]"));
 }
 
+TEST_F(CalibrateCommand, OfAHeadRefusesAnotherNumberOfLedsThanEmulatedCamerasSee) {
+  const ProcessResult result = vindu({"calibrate", "head", "--wall", wall_, "--leds", "4"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("--leds: is 4, and emulated cameras see the 3 LEDs of head"));
+}
+
 TEST_F(CalibrateCommand, OfAHeadRefusesAnEyeThatNoHeadHas) {
   const ProcessResult result =
       vindu({"calibrate", "head", "--wall", wall_, "--eye-at", "0,1.65,2"});  // in room

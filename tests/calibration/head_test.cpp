@@ -57,5 +57,19 @@ TEST(Head, OfAWearerWhoDoesNotStandStillIsRefused) {
                Error);
 }
 
+TEST(Head, OfFewerLedsThanItIsSaidToHaveIsRefusedWithTheirNumber) {
+  EmulatedCapture wanted{.site = true_site({{-1, 2.3, 5}, {1, 2.3, 5}}), .seconds = 20};
+  wanted.body = bare_leds(HeadConfig{}.leds_in_head, still_then_moving({0, 1.68, 2.0}));
+  const Capture capture = capture_of(wanted);
+  HeadOptions four;
+  four.leds = 4;
+  EXPECT_THAT(
+      [&] {
+        calibrate_head(capture, wanted.site.cameras, wanted.site.wall.room_from_wall, {}, four);
+      },
+      ::testing::ThrowsMessage<Error>(
+          ::testing::ContainsRegex("all 4 LEDs at 0 moments only; they saw 3 dots at .*--leds 3")));
+}
+
 }  // namespace
 }  // namespace vindu

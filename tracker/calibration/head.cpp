@@ -23,6 +23,7 @@ constexpr double kGap_m = 0.03;       // by which rays of one LED may pass each 
 constexpr double kWorstMisfit_m = 1;  // of no moments: worse than any
 constexpr double kMisfit_m = 0.02;    // rms of a moment's points from the helmet's
 constexpr std::size_t kTrials = 60;   // moments that choose the shape
+constexpr std::size_t kFewestHeadMoments = 50;
 
 /// What two cameras saw at one time, all LEDs in both; and, once they are matched, which is which.
 struct Moment {
@@ -215,6 +216,23 @@ std::pair<std::size_t, std::size_t> best_pair(const std::vector<CameraTrack>& tr
   return best;
 }
 
+/// What two cameras too seldom saw: as many LEDs as there are said to be. They may see another
+/// number of them all the time.
+Error too_few_moments(const std::vector<CameraTrack>& tracks,
+                      const std::vector<CameraConfig>& cameras, std::size_t leds,
+                      std::size_t moments) {
+  const std::size_t other = leds == 3 ? 4 : 3;
+  const auto [a, b] = best_pair(tracks, cameras, other);
+  const std::size_t of_other = moments_of(tracks, cameras, a, b, other).size();
+  std::string remedy = "stay in view of two cameras for half a minute, turn little at a time";
+  if (of_other >= kFewestHeadMoments)
+    remedy = fmt::format(
+        "they saw {} dots at {} moments: {}, or measure {} by --leds {}", other, of_other,
+        other < leds ? "light and uncover all LEDs" : "take other lights away", other, other);
+  return Error({fmt::format("two cameras saw all {} LEDs at {} moments only", leds, moments),
+                "head", remedy});
+}
+
 /// The LEDs while the wearer stood still, in wall. Throws Error where he did not.
 Points still_in_wall(const std::vector<Moment>& moments, const Points& shape,
                      const Rigid3& wall_from_room, double still_s) {
@@ -262,10 +280,8 @@ HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig
   const auto [a, b] = best_pair(tracks, cameras, leds);
   auto moments =
       thinned(moments_of(tracks, cameras, a, b, leds), options.still_s, options.max_moments);
-  if (moments.size() < 50)
-    throw Error(
-        {fmt::format("two cameras saw all {} LEDs at {} moments only", leds, moments.size()),
-         "head", "stay in view of two cameras for half a minute, turn little at a time"});
+  if (moments.size() < kFewestHeadMoments)
+    throw too_few_moments(tracks, cameras, leds, moments.size());
   const CameraModel model_a(with_image_dots(cameras[a])), model_b(with_image_dots(cameras[b]));
   std::vector<Crossings> crossings;
   for (const Moment& moment : moments) crossings.push_back(cross(model_a, model_b, moment));
