@@ -325,6 +325,25 @@ void read_wiimote(TomlTable& table, CameraConfig& camera) {
     camera.dot_format = *ir_format_from(*name);
 }
 
+bool same_but_for_case(const std::string& one, const std::string& other) {
+  const auto small = [](unsigned char letter) { return std::tolower(letter); };
+  return std::ranges::equal(one, other, {}, small, small);
+}
+
+/// One device cannot be two cameras; emulated ones have none.
+void refuse_shared_device(TomlTable& table, const CameraConfig& camera,
+                          const std::vector<CameraConfig>& before) {
+  for (const CameraConfig& other : before) {
+    if (other.source != camera.source || camera.source == CameraSource::emulated) continue;
+    const bool wiimote = camera.source == CameraSource::wiimote;
+    const std::string& own = wiimote ? camera.address : camera.video.device;
+    const std::string& taken = wiimote ? other.address : other.video.device;
+    if (!own.empty() && same_but_for_case(own, taken))
+      table.fail(wiimote ? "address" : "device", "\"" + own + "\" is that of \"" + other.name +
+                                                     "\", too; give every camera its own device");
+  }
+}
+
 constexpr std::size_t kMostCameras = 16;
 
 /// Fields of another source are not known, except that an emulated camera may stand in for any.
@@ -347,6 +366,7 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
     camera.intrinsics = read_intrinsics(table, intrinsics_before_calibration(camera));
     camera.room_from_camera = read_camera_pose(table);
     camera.use_calibration = table.boolean("calibration").value_or(true);
+    refuse_shared_device(table, camera, cameras);
     table.finish();
     if (cameras.size() == kMostCameras)
       table.fail("name", fmt::format("is that of one camera too many; {} are tracked at most",

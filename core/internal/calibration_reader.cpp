@@ -50,6 +50,16 @@ std::optional<Rigid3> read_pose(TomlTable& table) {
   return Rigid3{quaternion.normalized(), *position};
 }
 
+/// Which of the two holds would be a guess.
+template <class Calibration, class Name>
+void refuse_twice(TomlTable& table, const std::vector<Calibration>& before, const std::string& name,
+                  Name name_of) {
+  if (!name.empty() && std::ranges::find(before, name, name_of) != before.end())
+    table.fail("name", "\"" + name +
+                           "\" is calibrated twice; keep the newer table (see date), "
+                           "and delete the other");
+}
+
 void apply(const CameraCalibration& found, CameraConfig& camera) {
   camera.intrinsics = found.intrinsics.value_or(camera.intrinsics);
   camera.room_from_camera = found.room_from_camera.value_or(camera.room_from_camera);
@@ -81,6 +91,7 @@ std::vector<CameraCalibration> read_camera_calibrations(TomlTable& root) {
     camera.lag_ms = table.number("lag_ms", {-1000, 1000});
     camera.masks_px = table.vec2s("masks_px", 0, 64, {-1e4, 1e4});
     camera.note = read_note(table);
+    refuse_twice(table, found, camera.camera, &CameraCalibration::camera);
     table.finish();
     found.push_back(std::move(camera));
   }
@@ -97,6 +108,8 @@ std::vector<HeadCalibration> read_head_calibrations(TomlTable& root) {
         table.vec3s("leds_m", 1, 16, {-10, 10}).value_or(head.head.leds_in_head);
     head.head.eye_in_head = table.vec3("eye_m", {-1, 1}).value_or(head.head.eye_in_head);
     head.note = read_note(table);
+    refuse_twice(table, found, head.head.name,
+                 [](const HeadCalibration& other) { return other.head.name; });
     table.finish();
     found.push_back(std::move(head));
   }

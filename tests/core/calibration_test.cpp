@@ -17,6 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::IsNearPoint;
 using testing::IsNearRigid;
+using ::testing::ThrowsMessage;
 
 const std::string kWall =
     "[wall]\ncolumns = 2\nrows = 1\nwidth_m = 2\nheight_m = 1\n"
@@ -128,6 +129,20 @@ TEST_F(CalibrationFile, ThatIsDamagedIsRefusedWithFileAndLine) {
     EXPECT_THAT(error.what(), HasSubstr(file + ":4"));
     EXPECT_THAT(error.what(), HasSubstr("rotation_xyzw"));
   }
+}
+
+TEST_F(CalibrationFile, ThatHoldsACameraOrAHeadTwiceIsRefusedWithTheLineOfTheSecond) {
+  const std::string cameras = write_calibration(wall_file(), {some_calibration()});
+  const std::string heads = write_calibration(wall_file(), HeadCalibration{});
+  std::ofstream(cameras) << "[[calibrated_camera]]\nname = \"left\"\nlag_ms = 1\n"
+                            "[[calibrated_camera]]\nname = \"left\"\nlag_ms = 2\n";
+  EXPECT_THAT([&] { read_site(wall_file()); },
+              ThrowsMessage<Error>(HasSubstr(cameras + ":5: calibrated_camera[1].name: \"left\" is "
+                                                       "calibrated twice")));
+  std::filesystem::remove(cameras);
+  const std::string head = "[[calibrated_head]]\nname = \"head\"\nleds_m = [[0, 0, 0]]\n";
+  std::ofstream(heads) << head << head;
+  EXPECT_THAT([&] { read_site(wall_file()); }, ThrowsMessage<Error>(HasSubstr(heads + ":5: ")));
 }
 
 TEST_F(CalibrationFile, OfAnUnknownCameraIsLeftOut) {

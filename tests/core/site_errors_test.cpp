@@ -138,6 +138,13 @@ INSTANTIATE_TEST_SUITE_P(
              kCamera + "position_m = [0, 1, 2]\nlook_at_m = [0, 0, 0]\n" + kCamera +
                  "position_m = [0, 1, 2]\nlook_at_m = [0, 0, 0]\n",
              "FILE:14: camera[1].name: \"a\" stands twice; give every camera its own name"},
+        Case{"TwoCamerasOfOneWiimote",
+             "[[camera]]\nname = \"a\"\nsource = \"wiimote\"\naddress = \"00:1f:32:00:00:0A\"\n"
+             "position_m = [0, 1, 2]\npitch_deg = 90\n"
+             "[[camera]]\nname = \"b\"\nsource = \"wiimote\"\naddress = \"00:1F:32:00:00:0a\"\n"
+             "position_m = [0, 1, 2]\npitch_deg = 90\n",
+             "FILE:17: camera[1].address: \"00:1F:32:00:00:0a\" is that of \"a\", too; give every "
+             "camera its own device"},
         Case{"ACameraOfAnotherKind",
              "[[camera]]\nname = \"a\"\nsource = \"wimote\"\nposition_m = [0, 1, 2]\n"
              "look_at_m = [0, 0, 0]\n",
