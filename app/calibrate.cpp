@@ -166,6 +166,7 @@ void write(const CalibrateOptions& options, const Calibrating& run, const HeadCa
 }
 
 std::string layout_remark(const HeadConfig& head) {
+  if (head.leds_in_head.size() == 1) return "";
   const LayoutAmbiguity ambiguity = layout_ambiguity(head.leds_in_head);
   if (ambiguity.rigid_mm >= kAmbiguous_mm) return "";
   return fmt::format(

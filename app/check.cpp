@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "tracker/calibration/layout.h"
 #include "tracker/camera_model.h"
+#include "tracker/tracker.h"
 
 namespace vindu::app {
 namespace {
@@ -40,6 +41,46 @@ std::string shown(const std::optional<CalibrationNote>& note) {
   return text;
 }
 
+/// Why nothing can be tracked, or not this head, by [tracking] of the wall file; "" where it can.
+std::string tracking_remark(const Site& site, const HeadConfig& head) {
+  const auto& [method, mode, follow] = site.tracking;
+  const std::size_t least = mode == "position" ? 1 : mode == "six-dof" ? 3 : 2;
+  const std::size_t leds = head.leds_in_head.size();
+  if (leds < least)
+    return fmt::format(
+        "warning: mode = \"{}\" of [tracking] needs {} LEDs or more, and leds_m of {} has {}: "
+        "nothing will be found. Write mode = \"position\", or add LEDs.\n",
+        mode, least, head.name, leds);
+  try {
+    if (!site.cameras.empty() && &head == &site.heads.front()) {
+      const Tracker starts(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
+    }
+  } catch (const Error& error) {
+    return fmt::format("warning: tracking will not start: {}\n", error.what());
+  }
+  return "";
+}
+
+void print_heads(const Site& site) {
+  for (const HeadConfig& head : site.heads) {
+    const std::size_t leds = head.leds_in_head.size();
+    fmt::print("  head {:<12} {} {}, eye at {} in head{}\n", head.name, leds,
+               leds == 1 ? "LED" : "LEDs", shown(head.eye_in_head), shown(head.calibration));
+    for (const std::string& remark : {layout_remark(head), tracking_remark(site, head)})
+      if (!remark.empty()) fmt::print("  {}", remark);
+  }
+  for (std::size_t a = 0; a < site.heads.size(); ++a)
+    for (std::size_t b = a + 1; b < site.heads.size(); ++b) {
+      const HeadConfig &one = site.heads[a], &other = site.heads[b];
+      const double apart_mm = layouts_apart_mm(one.leds_in_head, other.leds_in_head);
+      if (apart_mm < kAmbiguous_mm)
+        fmt::print(
+            "  warning: the LEDs of {} fit those of {} to {:.1f} mm: who is who cannot be "
+            "told. Move one LED by a few centimetres.\n",
+            one.name, other.name, apart_mm);
+    }
+}
+
 void print_wall(const Site& site) {
   const Wall& wall = site.wall;
   std::printf("%zu %s, %d x %d, %.3f x %.3f m; corners in wall, metres\n", wall.tiles.size(),
@@ -58,21 +99,7 @@ void print_wall(const Site& site) {
     fmt::print("  camera {:<10} {:<9} at {} in room, focal length {:.0f} px{}\n", camera.name,
                name_of(camera.source), shown(camera.room_from_camera.translation),
                camera.intrinsics.fx_px, shown(camera.calibration));
-  for (const HeadConfig& head : site.heads) {
-    fmt::print("  head {:<12} {} LEDs, eye at {} in head{}\n", head.name, head.leds_in_head.size(),
-               shown(head.eye_in_head), shown(head.calibration));
-    if (const std::string remark = layout_remark(head); !remark.empty()) fmt::print("  {}", remark);
-  }
-  for (std::size_t a = 0; a < site.heads.size(); ++a)
-    for (std::size_t b = a + 1; b < site.heads.size(); ++b) {
-      const HeadConfig &one = site.heads[a], &other = site.heads[b];
-      const double apart_mm = layouts_apart_mm(one.leds_in_head, other.leds_in_head);
-      if (apart_mm < kAmbiguous_mm)
-        fmt::print(
-            "  warning: the LEDs of {} fit those of {} to {:.1f} mm: who is who cannot be "
-            "told. Move one LED by a few centimetres.\n",
-            one.name, other.name, apart_mm);
-    }
+  print_heads(site);
 }
 
 /// Drawing units a metre; programs that set small letters badly get large ones.

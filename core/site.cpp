@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/internal/calibration_reader.h"
+#include "core/internal/plausible.h"
 #include "core/internal/toml_table.h"
 
 namespace vindu {
@@ -145,6 +146,7 @@ HeadConfig read_head(TomlTable& table) {
   HeadConfig head;
   head.name = table.text("name").value_or(head.name);
   head.leds_in_head = table.vec3s("leds_m", 1, 16, {-10, 10}).value_or(head.leds_in_head);
+  internal::expect_a_helmet(table, head.leds_in_head);
   head.eye_in_head = table.vec3("eye_m", {-1, 1}).value_or(head.eye_in_head);
   head.use_calibration = table.boolean("calibration").value_or(true);
   table.finish();
@@ -364,6 +366,7 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
       table.fail("device", "is missing; write device = \"/dev/video0\", or file for a video");
     camera.lag_ms = table.number("lag_ms", {-1000, 1000}).value_or(camera.lag_ms);
     camera.intrinsics = read_intrinsics(table, intrinsics_before_calibration(camera));
+    internal::expect_a_view(table, camera);
     camera.room_from_camera = read_camera_pose(table);
     camera.use_calibration = table.boolean("calibration").value_or(true);
     refuse_shared_device(table, camera, cameras);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/internal/plausible.h"
 #include "core/log.h"
 
 namespace vindu::internal {
@@ -106,6 +107,7 @@ std::vector<HeadCalibration> read_head_calibrations(TomlTable& root) {
     head.head.name = table.text("name").value_or(head.head.name);
     head.head.leds_in_head =
         table.vec3s("leds_m", 1, 16, {-10, 10}).value_or(head.head.leds_in_head);
+    expect_a_helmet(table, head.head.leds_in_head);
     head.head.eye_in_head = table.vec3("eye_m", {-1, 1}).value_or(head.head.eye_in_head);
     head.note = read_note(table);
     refuse_twice(table, found, head.head.name,

@@ -106,6 +106,26 @@ TEST_F(CheckCommand, WarnsOfTwoHelmetsThatCannotBeTold) {
               ::testing::Not(HasSubstr("fit those of")));
 }
 
+TEST_F(CheckCommand, WarnsOfAHelmetThatTheTrackingCannotUse) {
+  const std::string wall = bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
+  const auto said_of = [&](const std::string& leds, const std::string& tracking) {
+    std::string text = wall;
+    const std::size_t begin = text.find("leds_m = ");
+    text.replace(begin, text.find('\n', begin) - begin, "leds_m = " + leds);
+    const ProcessResult result =
+        vindu({"check", write("wall.toml", text + "[tracking]\n" + tracking)});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  const std::string one = "[[0, 0, 0]]", two = "[[0, 0, 0], [0.1, 0, 0]]";
+  EXPECT_THAT(said_of(one, ""), HasSubstr("warning: mode = \"auto\" of [tracking] needs 2 LEDs or "
+                                          "more, and leds_m of head has 1"));
+  EXPECT_THAT(said_of(two, "mode = \"six-dof\"\n"), HasSubstr("needs 3 LEDs or more"));
+  EXPECT_THAT(said_of(two, "method = \"thesis\"\n"),
+              HasSubstr("the thesis' method needs three LEDs, not 2"));
+  EXPECT_THAT(said_of(one, "mode = \"position\"\n"), ::testing::Not(HasSubstr("warning")));
+}
+
 TEST_F(CheckCommand, FailsWhereTheDrawingCannotBeWritten) {
   const ProcessResult result = vindu({"check", "--draw", path("nowhere/wall.svg")});
   EXPECT_EQ(result.exit_code, 1);

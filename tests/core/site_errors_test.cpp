@@ -84,6 +84,16 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"AnLedFarAway", "[head]\nleds_m = [[0, 0, 100]]\n",
              "FILE:9: head.leds_m: is [[0, 0, 100]]; 1 to 16 points [x, y, z], each number "
              "from -10 to 10, in brackets are allowed"},
+        Case{"LedsThatAreOne", "[head]\nleds_m = [[0, 0, 0], [0.1, 0, 0], [0.1, 0.002, 0]]\n",
+             "FILE:9: head.leds_m: has two LEDs 2.0 mm apart; at least 5 mm is allowed; measure "
+             "them again, in metres"},
+        Case{"LedsOfNoHead", "[head]\nleds_m = [[-4.5, 0, 0], [0, 0, 0], [4.5, 0, 0]]\n",
+             "FILE:9: head.leds_m: has two LEDs 9.00 m apart; at most 2 m is allowed on one head; "
+             "measure them again, in metres"},
+        Case{"AFocalLengthInMillimetres",
+             kCamera + "focal_px = 10\nposition_m = [0, 1, 2]\npitch_deg = 90\n",
+             "FILE:11: camera[0].focal_px: is 10: a picture of 1024 pixels across would show 178 "
+             "degrees; at least 138 px, for 150 degrees, is allowed; it is in pixels, not mm"},
         Case{"AWordThatIsNotAllowed", "[scene]\nplace = \"fill\"\n",
              "FILE:9: scene.place: is \"fill\" (did you mean \"fit\"?); allowed: fit, life-size, "
              "as-is"},

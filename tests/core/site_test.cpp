@@ -86,6 +86,16 @@ TEST(Site, TakesViewerHeadAndScene) {
   EXPECT_EQ(site.scene.place, Placement::life_size);
 }
 
+TEST(Site, TakesAHelmetOfOneLedAndALensOf120Degrees) {
+  const Site site = site_of(kGrid +
+                            "[head]\nleds_m = [[0, 0, 0]]\n[tracking]\nmode = \"position\"\n"
+                            "[[camera]]\nname = \"wide\"\nsource = \"video\"\nfile = \"a.avi\"\n"
+                            "width_px = 640\nfocal_px = 184\nposition_m = [0, 3, 2]\n"
+                            "pitch_deg = 90\n");
+  EXPECT_EQ(site.heads.front().leds_in_head.size(), 1u);
+  EXPECT_DOUBLE_EQ(site.cameras[0].intrinsics.fx_px, 184);
+}
+
 TEST(Site, FindsTheModelBesideItsFile) {
   const TextFile file(kGrid + "[scene]\nmodel = \"models/a.glb\"\n");
   const std::filesystem::path expected =
