@@ -66,6 +66,16 @@ void add_emulation(CLI::App& app, EmulationOptions& options) {
       ->check(refuse_press);
 }
 
+void refuse_late_presses(const EmulationOptions& options, const std::optional<double>& seconds) {
+  if (!seconds) return;
+  for (const std::string& press : options.presses)
+    if (press_from(press, Time{})->from >= Time{from_seconds(*seconds)})
+      throw CLI::ValidationError(
+          "--press", fmt::format("{} comes after the end: --seconds {:g}; run longer, or press "
+                                 "earlier",
+                                 press, *seconds));
+}
+
 void apply(const EmulationOptions& options, Time now, EmulatedRoomOptions& room) {
   if (options.link == "busy") room.wiimote.link = two_on_one_adapter();
   if (options.link == "bad") room.wiimote.link = bad_link();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct EmulationOptions {
 /// --link good|busy|bad, --kernel, --people N, --press BUTTON@SECONDS; without effect on real
 /// devices.
 void add_emulation(CLI::App& app, EmulationOptions& options);
+
+/// Throws CLI::ValidationError (called wrong) for presses that come after a run's end.
+void refuse_late_presses(const EmulationOptions& options, const std::optional<double>& seconds);
 
 /// A room in which people walk from now on; they and devices are of that seed. Throws Error for
 /// more people than the site has heads.

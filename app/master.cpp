@@ -428,7 +428,10 @@ void add_master(CLI::App& parent, Action& chosen) {
       "\nExamples:\n"
       "  vindu master --wall wall.toml\n"
       "  vindu master model.glb --mode loop --seconds 60 --csv frames.csv\n");
-  app->callback([command, &chosen] { chosen = [command] { return master(*command); }; });
+  app->callback([command, &chosen] {
+    refuse_late_presses(command->emulation, command->seconds);
+    chosen = [command] { return master(*command); };
+  });
 }
 
 }  // namespace vindu::app

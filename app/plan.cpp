@@ -271,15 +271,16 @@ int run_plan(const PlanOptions& options) {
   return 0;
 }
 
-void add_numbers(CLI::App& app, const std::string& name, std::vector<double>& values,
-                 std::size_t least, std::size_t most, const std::string& help) {
-  app.add_option_function<std::string>(
-         name,
-         [&values, name, least, most](const std::string& text) {
-           values = parse_numbers(name, text, least, most);
-           if (least == 4) check_rectangle(name, values);
-         },
-         help)
+CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<double>& values,
+                         std::size_t least, std::size_t most, const std::string& help) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [&values, name, least, most](const std::string& text) {
+            values = parse_numbers(name, text, least, most);
+            if (least == 4) check_rectangle(name, values);
+          },
+          help)
       ->type_name(least == 4 ? "X0,Z0,X1,Z1" : "M,M,...");
 }
 
@@ -300,16 +301,19 @@ void add_plan(CLI::App& parent, Action& chosen) {
       ->check(between(0.1, 1000.0));
   app->add_option("--noise-px", options->noise_px, "Of a dot, before rounding to whole units")
       ->check(between(0.0, 20.0));
-  app->add_option("--propose", options->propose, "Places for so many cameras")
-      ->check(CLI::Range(1, 16))
-      ->type_name("N");
-  add_numbers(
-      *app, "--room", options->room, 4, 4,
-      "Where the rails run, of the proposal (default: 1.2 m aside of the area, 2 m behind)");
+  CLI::Option* const propose =
+      app->add_option("--propose", options->propose, "Places for so many cameras")
+          ->check(CLI::Range(1, 16))
+          ->type_name("N");
+  add_numbers(*app, "--room", options->room, 4, 4,
+              "Where the rails run, of the proposal (default: 1.2 m aside of the area, 2 m behind)")
+      ->needs(propose);
   app->add_option("--rail-height", options->rail_height_m, "Of the rails, metres")
-      ->check(between(0.1, 20.0));
+      ->check(between(0.1, 20.0))
+      ->needs(propose);
   app->add_option("--ceiling", options->ceiling_m, "Height of the upper corners, metres")
-      ->check(between(0.1, 20.0));
+      ->check(between(0.1, 20.0))
+      ->needs(propose);
   app->add_option("--out", options->out, "Picture (default: out/plan.png)")
       ->type_name("")
       ->check(png_name());

@@ -197,7 +197,10 @@ void add_record(CLI::App& parent, Action& chosen) {
       "  vindu record --wall wall.toml --out walk.vrec\n"
       "  vindu record --seconds 10\n"
       "  vindu replay walk.vrec\n");
-  app->callback([command, &chosen] { chosen = [command] { return record(*command); }; });
+  app->callback([command, &chosen] {
+    refuse_late_presses(command->emulation, command->seconds);
+    chosen = [command] { return record(*command); };
+  });
 }
 
 }  // namespace vindu::app

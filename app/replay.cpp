@@ -262,7 +262,7 @@ void add_replay(CLI::App& parent, Action& chosen) {
       app->add_option("--predict-ms", command->predict_ms,
                       "With --track: the eye so long after each tick (default: 0)")
           ->check(between(0.0, 1000.0));
-  add_targets(*app, command->targets);
+  add_targets(*app, command->targets)->needs(track);
   app->add_flag("--skip-damage", command->skip_damage, "Read around what is damaged");
   app->footer(
       "\nExamples:\n"

@@ -398,7 +398,10 @@ void add_simulate(CLI::App& parent, Action& chosen) {
       "  vindu simulate\n"
       "  vindu simulate model.glb --seconds 30 --out pictures\n"
       "  vindu simulate --mode loop --path path.toml --clock manual --seconds 5\n");
-  app->callback([options, &chosen] { chosen = [options] { return simulate(*options); }; });
+  app->callback([options, &chosen] {
+    refuse_late_presses(options->emulation, options->seconds);
+    chosen = [options] { return simulate(*options); };
+  });
 }
 
 }  // namespace vindu::app

@@ -229,7 +229,10 @@ void add_track(CLI::App& parent, Action& chosen) {
       "  vindu track --wall wall.toml\n"
       "  vindu track --json --predict-ms 40 > poses.jsonl\n"
       "  vindu track --target globe,0.5,0.2,-1,0.3 --seconds 60\n");
-  app->callback([command, &chosen] { chosen = [command] { return track(*command); }; });
+  app->callback([command, &chosen] {
+    refuse_late_presses(command->emulation, command->seconds);
+    chosen = [command] { return track(*command); };
+  });
 }
 
 }  // namespace vindu::app

@@ -37,9 +37,11 @@ std::optional<LookTarget> target_from(const std::string& text) {
 
 }  // namespace
 
-void add_targets(CLI::App& app, std::vector<std::string>& texts) {
-  app.add_option("--target", texts,
-                 "NAME,x,y,z,radius: a thing in wall, in metres; that somebody looks at it is told")
+CLI::Option* add_targets(CLI::App& app, std::vector<std::string>& texts) {
+  return app
+      .add_option(
+          "--target", texts,
+          "NAME,x,y,z,radius: a thing in wall, in metres; that somebody looks at it is told")
       ->type_name("TARGET")
       ->allow_extra_args(false)
       ->check([](const std::string& text) -> std::string {

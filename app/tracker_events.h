@@ -15,7 +15,7 @@
 namespace vindu::app {
 
 /// --target NAME,x,y,z,radius, to be given any number of times.
-void add_targets(CLI::App& app, std::vector<std::string>& texts);
+CLI::Option* add_targets(CLI::App& app, std::vector<std::string>& texts);
 /// Of texts that the command line has let pass.
 std::vector<LookTarget> targets_from(const std::vector<std::string>& texts);
 

@@ -221,7 +221,10 @@ void add_view(CLI::App& parent, Action& chosen) {
       "  vindu view model.glb --mouse\n"
       "  vindu view scan.ply --eye 0,0.1,0.6 --screen-mm 527 296\n"
       "  vindu view --track --wall assets/walls/desk.toml --fullscreen\n");
-  app->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
+  app->callback([options, &chosen] {
+    refuse_late_presses(options->emulation, options->seconds);
+    chosen = [options] { return view(*options); };
+  });
 }
 
 }  // namespace vindu::app

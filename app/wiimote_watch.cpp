@@ -289,7 +289,10 @@ void add_wiimote_watch(CLI::App& wiimote, Action& chosen) {
       "  vindu wiimote watch 2 --sensitivity wii-5\n"
       "  vindu wiimote watch --emulated --json --seconds 2\n"
       "  vindu wiimote watch --emulated --link bad --kernel\n");
-  app->callback([options, &chosen] { chosen = [options] { return watch(*options); }; });
+  app->callback([options, &chosen] {
+    refuse_late_presses(options->emulation, options->seconds);
+    chosen = [options] { return watch(*options); };
+  });
 }
 
 }  // namespace vindu::app

@@ -91,6 +91,23 @@ TEST_F(CommandLine, RefusesToPredictWhereNothingIsTracked) {
   EXPECT_THAT(result.err, HasSubstr("--predict-ms requires --track"));
 }
 
+TEST_F(CommandLine, RefusesTargetsWhereNothingIsTracked) {
+  const ProcessResult result =
+      vindu({"replay", "walk.vrec", "--parts", "--target", "globe,0.5,0.2,-1,0.3"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--target requires --track"));
+}
+
+TEST_F(CommandLine, RefusesPressesAfterTheEnd) {
+  for (const Command& command : {Command{"track"}, {"record"}, {"simulate"}, {"view", "--track"}}) {
+    Command words = command;
+    words.insert(words.end(), {"--seconds", "2", "--press", "home@1", "--press", "up@2.5"});
+    const ProcessResult result = vindu(words);
+    EXPECT_EQ(result.exit_code, 2) << command.front();
+    EXPECT_THAT(result.err, HasSubstr("--press: up@2.5 comes after the end: --seconds 2"));
+  }
+}
+
 class WrongCalls : public AppTest,
                    public ::testing::WithParamInterface<std::vector<std::string>> {};
 

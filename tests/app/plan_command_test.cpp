@@ -1,4 +1,6 @@
 // vindu plan: figures, picture, and proposals that the other commands take.
+#include <utility>
+
 #include "renderer/image.h"
 #include "tests/app/process.h"
 
@@ -84,6 +86,15 @@ TEST_F(PlanCommand, WrongNumbersAreCalledWrong) {
     EXPECT_THAT(result.err, HasSubstr("--area"));
   }
   EXPECT_EQ(vindu({"plan", "--propose", "17"}).exit_code, 2);
+}
+
+TEST_F(PlanCommand, WhereToPutCamerasIsForAProposalAlone) {
+  for (const auto& [option, value] : {std::pair("--room", "-2,0,2,4"), std::pair("--ceiling", "3"),
+                                      std::pair("--rail-height", "2")}) {
+    const ProcessResult result = vindu({"plan", option, value, "--out", path("plan.png")});
+    EXPECT_EQ(result.exit_code, 2) << option;
+    EXPECT_THAT(result.err, HasSubstr(option + std::string(" requires --propose")));
+  }
 }
 
 TEST_F(PlanCommand, AWallWithoutCamerasSaysWhatToDo) {
