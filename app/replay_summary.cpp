@@ -126,6 +126,8 @@ std::string problems_text(const RecordingSummary& summary) {
   const auto say = [&text](std::uint64_t count, const std::string& what) {
     if (count > 0) text += fmt::format("  {} {}\n", count, what);
   };
+  for (const std::string& file : summary.problems.missing)
+    text += "  " + file + " is missing; what comes after it was not read\n";
   say(summary.problems.torn_bytes, "bytes lost at the end");
   say(summary.problems.damaged_bytes, "damaged bytes skipped");
   say(summary.problems.dropped, "reports dropped while recording: the disk was too slow or full");

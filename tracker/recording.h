@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,8 @@ constexpr std::size_t kMaxRecordedReport = 4096;
 
 /// The files of one recording: "a.vrec", "a.1.vrec", "a.2.vrec"; part 0 is the first.
 std::string recording_part(const std::string& file, int part);
+/// The first of its parts after that one which is there; empty where none is.
+std::optional<int> recording_part_after(const std::string& file, int part);
 
 /// A report's line in the text form, without its end: "left 1234567 33001a". `device` is a name
 /// without blanks, or the index.

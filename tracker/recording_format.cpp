@@ -169,6 +169,24 @@ std::string recording_part(const std::string& file, int part) {
   return path;
 }
 
+std::optional<int> recording_part_after(const std::string& file, int part) {
+  const std::filesystem::path path(file);
+  const std::string begin = path.stem().string() + ".";
+  std::optional<int> first;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           path.has_parent_path() ? path.parent_path() : ".", unreadable)) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with(begin)) continue;
+    int number = 0;
+    std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
+    const bool later = number > part && (!first || number < *first);
+    if (later && name == std::filesystem::path(recording_part(file, number)).filename())
+      first = number;
+  }
+  return first;
+}
+
 bool arrival_in_range(std::int64_t arrival_ns) {
   return arrival_ns >= 0 && arrival_ns <= 4'000'000'000'000'000'000;
 }

@@ -89,7 +89,11 @@ void RecordingReader::begin_part() {
 bool RecordingReader::begin_next_part() {
   const std::string next = base_.empty() ? "" : recording_part(base_, part_ + 1);
   std::error_code ignored;
-  if (next.empty() || !std::filesystem::exists(next, ignored)) return false;
+  if (next.empty()) return false;
+  if (!std::filesystem::exists(next, ignored)) {
+    look_for_later_parts();
+    return false;
+  }
   const std::uint64_t size = std::filesystem::file_size(next, ignored);
   if (size <= kPreambleSize) {  // cut off as it was begun
     problems_.torn_bytes += size;
@@ -97,9 +101,7 @@ bool RecordingReader::begin_next_part() {
     return false;
   }
   const RecordingReader other(next, damage_);
-  const bool continues = other.info_.started_utc_ns == info_.started_utc_ns &&
-                         other.info_.started == info_.started && other.part_ == part_ + 1;
-  if (!continues) {
+  if (!continues(other, part_ + 1)) {
     remark(next + " belongs to another recording and was not read");
     return false;
   }
@@ -107,6 +109,28 @@ bool RecordingReader::begin_next_part() {
   stream_.emplace(next);
   begin_part();
   return true;
+}
+
+bool RecordingReader::continues(const RecordingReader& other, int part) const {
+  return other.info_.started_utc_ns == info_.started_utc_ns &&
+         other.info_.started == info_.started && other.part_ == part;
+}
+
+/// Where the next part is not there: one after it tells that the recording did not end here.
+void RecordingReader::look_for_later_parts() {
+  const auto later = recording_part_after(base_, part_ + 1);
+  if (!later) return;
+  const std::string file = recording_part(base_, *later);
+  try {
+    if (!continues(RecordingReader(file, damage_), *later)) return;
+  } catch (const Error&) {  // nobody can say whose it is
+    return;
+  }
+  for (int part = part_ + 1; part < *later && problems_.missing.size() < kRemarks; ++part)
+    problems_.missing.push_back(recording_part(base_, part));
+  remark(problems_.missing.front() + " is missing: " + file +
+         " belongs to this recording, too, and was not read; put the missing part back, or read "
+         "the later one by itself");
 }
 
 std::optional<RecordedReport> RecordingReader::next() {

@@ -19,6 +19,7 @@ struct RecordingProblems {
   std::uint64_t torn_bytes = 0;      ///< at the end, where writing was cut off
   std::uint64_t damaged_bytes = 0;   ///< that were skipped
   std::uint64_t dropped = 0;         ///< reports that the recorder itself had to leave out
+  std::vector<std::string> missing;  ///< files of a rotated recording, before others of it
   std::vector<std::string> remarks;  ///< for people, each with its file; the first few
 };
 
@@ -43,6 +44,8 @@ class RecordingReader {
  private:
   void begin_part();
   bool begin_next_part();
+  bool continues(const RecordingReader& other, int part) const;
+  void look_for_later_parts();
   std::optional<RecordedReport> next_record();
   std::optional<RecordedReport> next_line();
   std::optional<std::string> take_line();

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <filesystem>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -38,24 +36,6 @@ Error cannot_be_written(const std::string& file, int error) {
       {"cannot be written: " + reason_of(error), file, "make room on the disk and record again"});
 }
 
-/// A later part of that name, which would stop the recording when its turn comes.
-std::optional<std::string> leftover_part(const std::string& file) {
-  const std::filesystem::path path(file);
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const std::string begin = path.stem().string() + ".", end = path.extension();
-  std::error_code unreadable;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
-    const std::string name = entry.path().filename();
-    if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) ||
-        !name.ends_with(end))
-      continue;
-    const std::size_t digits = name.size() - begin.size() - end.size();
-    if (name.substr(begin.size(), digits).find_first_not_of("0123456789") == std::string::npos)
-      return entry.path();
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 RecordingWriter::RecordingWriter(std::string file, RecordingInfo info,
@@ -63,8 +43,9 @@ RecordingWriter::RecordingWriter(std::string file, RecordingInfo info,
     : file_(std::move(file)), info_(std::move(info)), options_(options) {
   check_devices(info_.devices);
   status_.reports.resize(info_.devices.size());
-  if (const auto part = leftover_part(file_))
-    throw Error({"exists already", *part, "choose another name, or move it away"});
+  if (const auto part = recording_part_after(file_, 0))  // it would stop this one in its turn
+    throw Error(
+        {"exists already", recording_part(file_, *part), "choose another name, or move it away"});
   open_part(0);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }

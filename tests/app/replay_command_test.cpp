@@ -224,6 +224,18 @@ TEST_F(ReplayCommand, ReadsWhatRecordWroteUntilItWasInterrupted) {
   EXPECT_THAT(result.err, Not(HasSubstr("warning")));
 }
 
+TEST_F(ReplayCommand, NamesAPartOfARotatedRecordingThatIsMissing) {
+  ASSERT_EQ(vindu({"record", "--seconds", "2", "--rotate-mb", "0.004", "--out", path("a.vrec")})
+                .exit_code,
+            0);
+  ASSERT_THAT(files_in("."), Contains("a.2.vrec"));
+  std::filesystem::remove(path("a.1.vrec"));
+  const ProcessResult result = vindu({"replay", path("a.vrec")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("Problems\n  " + path("a.1.vrec") + " is missing"));
+  EXPECT_THAT(result.err, HasSubstr(path("a.2.vrec") + " belongs to this recording"));
+}
+
 TEST_F(ReplayCommand, ReadsEachDotFormatAsTheWallFileHasIt) {
   std::string wall = bytes_of(kWall);
   const std::string source = "source = \"emulated\"", dots = "dot_format = \"full\"\n";

@@ -246,6 +246,34 @@ TEST_F(Recording, does_not_go_on_in_another_recordings_file) {
   EXPECT_THAT(reading.problems.remarks.at(0), HasSubstr("a.1.vrec belongs to another recording"));
 }
 
+TEST_F(Recording, names_a_part_that_is_missing_before_others) {
+  const std::string file = record("a.vrec", 100, {.rotate_bytes = 500});
+  ASSERT_TRUE(fs::exists(path("a.3.vrec")));
+  fs::remove(path("a.1.vrec"));
+  const Reading reading = read_all(file);
+  EXPECT_LT(reading.reports.size(), 100u);
+  EXPECT_THAT(reading.problems.missing, ::testing::ElementsAre(path("a.1.vrec")));
+  EXPECT_THAT(reading.problems.remarks.at(0),
+              HasSubstr("a.1.vrec is missing: " + path("a.2.vrec") + " belongs to this recording"));
+  EXPECT_TRUE(read_all(path("a.2.vrec")).problems.missing.empty());
+}
+
+TEST_F(Recording, misses_no_part_before_a_file_that_is_not_its_own) {
+  const std::string file = record("a.vrec", 5);
+  RecordingInfo other = info();
+  ++other.started_utc_ns;
+  {
+    RecordingWriter writer(path("b.vrec"), other, {.rotate_bytes = 1});
+    for (int i = 0; i < 3; ++i) writer.add(0, Time{}, report_of(i).bytes);
+  }
+  for (const std::string& strange : {bytes_of(path("b.2.vrec")), std::string("no recording")}) {
+    ASSERT_FALSE(strange.empty());
+    write("a.2.vrec", strange);
+    EXPECT_TRUE(read_all(file).problems.missing.empty());
+    EXPECT_TRUE(read_all(file).problems.remarks.empty());
+  }
+}
+
 TEST_F(Recording, never_overwrites_a_file) {
   const std::string file = record("a.vrec", 5);
   EXPECT_THROW(RecordingWriter(file, info()), Error);

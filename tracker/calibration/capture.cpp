@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "tracker/camera_model.h"
 #include "tracker/joint/capture_clock.h"
 #include "tracker/recording_devices.h"
@@ -32,6 +33,7 @@ Contents contents_of(const std::string& recording) {
     contents.last = std::max(contents.last, report->arrival);
   }
   contents.devices = reader.info().devices;
+  for (const std::string& remark : reader.problems().remarks) log_warning("recording", remark);
   if (contents.first > contents.last)
     throw Error(
         {"holds no reports", recording, "look whether the cameras are on, and record again"});
