@@ -75,6 +75,22 @@ std::vector<Rail> rails_of(const Vec2& least, const Vec2& largest, const PlanOpt
   return rails;
 }
 
+/// Throws Error for an area of which every point is behind all tiles.
+void expect_before_the_wall(const std::vector<double>& area, const Site& site,
+                            const std::vector<double>& eye_heights_m) {
+  double wall_z_m = 0;  // in wall
+  for (const Tile& tile : site.wall.tiles)
+    for (const Vec3& corner : {tile.corners.lower_left_in_wall, tile.corners.lower_right_in_wall,
+                               tile.corners.upper_left_in_wall, tile.corners.upper_right_in_wall()})
+      wall_z_m = std::min(wall_z_m, corner.z());
+  const Rigid3 wall_from_room = inverse(site.wall.room_from_wall);
+  for (const double y : eye_heights_m)
+    if ((wall_from_room * Vec3(area[0], y, area[3])).z() > wall_z_m) return;
+  throw Error(
+      {fmt::format("{:g},{:g},{:g},{:g} lies behind the wall", area[0], area[1], area[2], area[3]),
+       "--area", "z grows from the wall towards the viewers: as in -1.5,1,1.5,3"});
+}
+
 Plan plan_of(const PlanOptions& options) {
   constexpr double kAside_m = 1.2, kBehind_m = 2.0;
   Plan plan{load_site(options.wall_file), {}, {}, {}};
@@ -82,6 +98,7 @@ Plan plan_of(const PlanOptions& options) {
   plan.area.yaw_deg = options.yaw_deg;
   if (!options.heights.empty()) plan.area.eye_heights_m = options.heights;
   if (!options.area.empty()) {
+    expect_before_the_wall(options.area, plan.site, plan.area.eye_heights_m);
     plan.area.least_in_room = {options.area[0], options.area[1]};
     plan.area.largest_in_room = {options.area[2], options.area[3]};
   }

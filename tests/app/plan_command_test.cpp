@@ -88,6 +88,14 @@ TEST_F(PlanCommand, WrongNumbersAreCalledWrong) {
   EXPECT_EQ(vindu({"plan", "--propose", "17"}).exit_code, 2);
 }
 
+TEST_F(PlanCommand, AnAreaBehindTheWallIsRefused) {
+  const ProcessResult result = vindu({"plan", "--area", "-1,-3,1,-1", "--out", path("plan.png")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err,
+              HasSubstr("--area: -1,-3,1,-1 lies behind the wall; z grows from the wall"));
+  EXPECT_FALSE(std::filesystem::exists(path("plan.png")));
+}
+
 TEST_F(PlanCommand, WhereToPutCamerasIsForAProposalAlone) {
   for (const auto& [option, value] : {std::pair("--room", "-2,0,2,4"), std::pair("--ceiling", "3"),
                                       std::pair("--rail-height", "2")}) {
