@@ -47,8 +47,10 @@ void add_accuracy(CLI::App& measure, Action& chosen) {
   CLI::Option* poses = app->add_option("--poses", study.poses, "Of each row of single frames")
                            ->check(CLI::Range(10, 1000000))
                            ->capture_default_str();
-  CLI::Option* length = app->add_option("--seconds", study.length_s, "Of each row that moves")
-                            ->check(between(1.0, 3600.0))
+  CLI::Option* length = app->add_option("--seconds", study.length_s,
+                                        "Of each row that moves; its walker takes short ways at\n"
+                                        "first, as slowly at any speed, hence 5 at the least")
+                            ->check(between(5.0, 3600.0))
                             ->capture_default_str();
   app->add_option("--seed", study.seed, "Of poses, motions, noise and links")
       ->capture_default_str();

@@ -49,5 +49,11 @@ TEST_F(MeasureCommand, WrongWordsAreCalledWrong) {
   EXPECT_EQ(vindu({"measure", "accuracy", "--seconds", "nan"}).exit_code, 2);
 }
 
+TEST_F(MeasureCommand, OfTooFewSecondsForAWalkToDifferFromAnotherIsRefused) {
+  const ProcessResult result = vindu({"measure", "accuracy", "--seconds", "4"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, ::testing::HasSubstr("--seconds: \"4\" is not a number from 5 to 3600"));
+}
+
 }  // namespace
 }  // namespace vindu
