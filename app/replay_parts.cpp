@@ -8,9 +8,9 @@ namespace vindu::app {
 namespace {
 
 std::string part_row(const char* name, const std::vector<double>& values_ms) {
-  if (values_ms.empty()) return fmt::format("  {:<14}{:>9}{:>9}{:>9}\n", name, "-", "-", "-");
+  if (values_ms.empty()) return fmt::format("  {:<14} {:>8} {:>8} {:>8}\n", name, "-", "-", "-");
   const Quantiles ms = quantiles_of(values_ms);
-  return fmt::format("  {:<14}{:>9.3f}{:>9.3f}{:>9.3f} ms\n", name, ms.p50, ms.p99, ms.max);
+  return fmt::format("  {:<14} {:>8.3f} {:>8.3f} {:>8.3f} ms\n", name, ms.p50, ms.p99, ms.max);
 }
 
 }  // namespace
@@ -22,7 +22,7 @@ void ReplayParts::add(Time now, const std::optional<PoseSample>& pose, Duration 
 }
 
 std::string ReplayParts::table() const {
-  return fmt::format("{} ticks, the head seen at {} of them\n\n  {:<14}{:>9}{:>9}{:>9}\n",
+  return fmt::format("{} ticks, the head seen at {} of them\n\n  {:<14} {:>8} {:>8} {:>8}\n",
                      solves_ms_.size(), capture_ages_ms_.size(), "", "p50", "p99", "max") +
          part_row("capture age", capture_ages_ms_) + part_row("solve", solves_ms_) +
          "\nCapture age is that of the recorded reports at the wall's ticks; solving was timed on "

@@ -88,12 +88,13 @@ std::string origin_of(const RecordingInfo& info) {
                      fmt::gmtime(std::chrono::system_clock::to_time_t(date)), info.wall_file);
 }
 
+/// Blanks stand between columns, so that no figure runs into the next one, however large.
 std::string device_row(const DeviceSummary& device) {
   const double length_s = device.reports > 1 ? seconds(device.last - device.first) : 0;
   const double rate_hz = length_s > 0 ? static_cast<double>(device.reports - 1) / length_s : 0;
   std::string ids;
   for (const auto& [id, reports] : device.by_id) ids += fmt::format("  0x{:02x}: {}", id, reports);
-  return fmt::format("  {:<12}{:>10}{:>12.3f}{:>11.2f}{:>14}{}\n", device.name, device.reports,
+  return fmt::format("  {:<12} {:>9} {:>11.3f} {:>10.2f} {:>13}{}\n", device.name, device.reports,
                      length_s, rate_hz, device.observations, ids);
 }
 
@@ -101,13 +102,13 @@ std::string gaps_table(const RecordingSummary& summary) {
   std::string text = "\n  gaps, ms    ";
   int low_ms = 0;
   for (const int high_ms : kGapEdges_ms) {
-    text += fmt::format("{:>9}", fmt::format("{}-{}", low_ms, high_ms));
+    text += fmt::format(" {:>8}", fmt::format("{}-{}", low_ms, high_ms));
     low_ms = high_ms;
   }
-  text += fmt::format("{:>9}\n", fmt::format("{}-", low_ms));
+  text += fmt::format(" {:>8}\n", fmt::format("{}-", low_ms));
   for (const auto& [index, device] : summary.devices) {
     text += fmt::format("  {:<12}", device.name);
-    for (const std::uint64_t gaps : device.gaps) text += fmt::format("{:>9}", gaps);
+    for (const std::uint64_t gaps : device.gaps) text += fmt::format(" {:>8}", gaps);
     text += "\n";
   }
   return text;
@@ -187,7 +188,7 @@ RecordingSummary summarize(const std::string& file, DamagePolicy damage,
 
 std::string table_of(const RecordingSummary& summary) {
   std::string text =
-      fmt::format("{}: {}\n{:.3f} s\n\n  {:<12}{:>10}{:>12}{:>11}{:>14}  by report id\n",
+      fmt::format("{}: {}\n{:.3f} s\n\n  {:<12} {:>9} {:>11} {:>10} {:>13}  by report id\n",
                   summary.file, origin_of(summary.info), seconds(summary.last - summary.first),
                   "device", "reports", "seconds", "a second", "observations");
   for (const auto& [index, device] : summary.devices) text += device_row(device);

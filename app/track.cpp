@@ -127,17 +127,17 @@ void print_table(const Tracker& tracker, const Cameras& cameras, const Site& sit
              counts.reports, site.cameras.size());
   for (std::size_t level = 0; level < counts.frames_by_level.size(); ++level)
     if (counts.frames_by_level[level])
-      fmt::print("  {:<10}{:>6.1f} %\n", name_of(static_cast<TrackingLevel>(level)),
+      fmt::print("  {:<10} {:>5.1f} %\n", name_of(static_cast<TrackingLevel>(level)),
                  100 * static_cast<double>(counts.frames_by_level[level]) / frames);
   const auto health = tracker.camera_health();
   for (std::size_t i = 0; i < health.size(); ++i)
-    fmt::print("  {:<10}{}, {} reflections masked{}\n", site.cameras[i].name,
+    fmt::print("  {:<9} {}, {} reflections masked{}\n", site.cameras[i].name,
                health[i].device_time ? "times by its own clock" : "times by arrival",
                health[i].masks, health[i].moved ? ", was MOVED: calibrate it again" : "");
   if (!misfit.empty()) fmt::print("  {}\n", misfit);
   for (const CameraState& camera : cameras.states())
     if (camera.gaps)
-      fmt::print("  {:<10}gaps: {}; {}{}\n", camera.name, vindu::text_of(*camera.gaps),
+      fmt::print("  {:<9} gaps: {}; {}{}\n", camera.name, vindu::text_of(*camera.gaps),
                  camera.counts, camera.trouble.empty() ? "" : "; " + camera.trouble);
 }
 

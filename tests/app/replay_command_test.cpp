@@ -141,6 +141,15 @@ TEST_F(ReplayCommand, PrintsFiguresOfWhatARecordingHolds) {
     EXPECT_THAT(result.out, HasSubstr(part));
 }
 
+TEST_F(ReplayCommand, KeepsItsColumnsApartHoweverLargeTheFigures) {
+  const std::string name = "a-camera-of-a-long-name";
+  const std::string text = write("a.txt", name + " 1000 22000016\n" + name + " 1005 22000016\n");
+  const ProcessResult result = vindu({"replay", text});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, ContainsRegex("\n  " + name + " +2 +0\\.000 +200000000\\.00 +0 "));
+  EXPECT_THAT(result.out, ContainsRegex("\n  " + name + " +1( +0)+\n"));
+}
+
 TEST_F(ReplayCommand, PrintsALineOfJsonForEachReport) {
   const std::string text = write("a.txt",
                                  "left 1000 33 60 60 80 81 82 2a 10 23 ff ff ff ff ff ff ff ff ff\n"
