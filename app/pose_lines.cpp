@@ -37,9 +37,11 @@ double steadily_rounded(double value, double before) {
 PoseLines::PoseLines(const Site& site, std::vector<LookTarget> targets)
     : site_(site), gestures_(site, std::move(targets)) {}
 
-std::vector<std::string> PoseLines::news(const Tracker& tracker, Duration shift) {
+std::vector<std::string> PoseLines::news(const Tracker& tracker,
+                                         const std::optional<PoseSample>& followed,
+                                         Duration shift) {
   std::vector<std::string> lines;
-  add_poses(tracker, shift, lines);
+  add_poses(tracker, followed, shift, lines);
   events_ = gestures_.news(tracker);
   for (const GestureEvent& event : events_) lines.push_back(json_of(event, shift));
   for (const ButtonChange& change : tracker.button_changes())
@@ -47,14 +49,16 @@ std::vector<std::string> PoseLines::news(const Tracker& tracker, Duration shift)
   return lines;
 }
 
-void PoseLines::add_poses(const Tracker& tracker, Duration shift, std::vector<std::string>& lines) {
+void PoseLines::add_poses(const Tracker& tracker, const std::optional<PoseSample>& followed,
+                          Duration shift, std::vector<std::string>& lines) {
   for (const PoseSample& pose : tracker.poses()) {
     const auto said = said_.find(pose.object);
     const bool news = said == said_.end() || said->second.capture_time != pose.capture_time ||
                       said->second.level != pose.level;
     if (!news) continue;
     said_.insert_or_assign(pose.object, pose);
-    lines.push_back(app::json_of(pose, tracker.eye_in_wall(pose), shift));
+    const bool shown = followed && followed->object == pose.object;
+    lines.push_back(app::json_of(pose, tracker.eye_in_wall(pose), shown, shift));
     add_health(tracker, pose.time, shift, lines);
   }
 }

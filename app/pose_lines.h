@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,15 +17,18 @@ class PoseLines {
  public:
   PoseLines(const Site& site, std::vector<LookTarget> targets);
 
-  /// The lines that are new since the last frame; times are moved by `shift`. A pose is news when
-  /// it rests on newer dots or its level changed.
-  std::vector<std::string> news(const Tracker& tracker, Duration shift);
+  /// The lines that are new since the last frame, of which `followed` is the pose that the tracker
+  /// gave; times are moved by `shift`. A pose is news when it rests on newer dots or its level
+  /// changed.
+  std::vector<std::string> news(const Tracker& tracker, const std::optional<PoseSample>& followed,
+                                Duration shift);
 
   /// Gestures of the last frame.
   const std::vector<GestureEvent>& events() const { return events_; }
 
  private:
-  void add_poses(const Tracker& tracker, Duration shift, std::vector<std::string>& lines);
+  void add_poses(const Tracker& tracker, const std::optional<PoseSample>& followed, Duration shift,
+                 std::vector<std::string>& lines);
   void add_health(const Tracker& tracker, Time time, Duration shift,
                   std::vector<std::string>& lines);
 

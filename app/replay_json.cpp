@@ -70,13 +70,16 @@ std::string json_of(const RecordedReport& report, const std::string& device) {
          "}";
 }
 
-std::string json_of(const PoseSample& pose, const Vec3& eye_in_wall, Duration shift) {
+std::string json_of(const PoseSample& pose, const Vec3& eye_in_wall, bool followed,
+                    Duration shift) {
   const Quat& q = pose.room_from_head.rotation;
   return fmt::format(
       R"({{"t_ns":{},"object":{},"level":"{}","eye_in_wall_m":{},)"
-      R"("room_from_head":{{"translation_m":{},"quaternion_xyzw":[{},{},{},{}]}},"sigma_m":{}}})",
+      R"("room_from_head":{{"translation_m":{},"quaternion_xyzw":[{},{},{},{}]}},"sigma_m":{},)"
+      R"("followed":{}}})",
       nanoseconds(pose.time + shift), pose.object, name_of(pose.level), json_vec(eye_in_wall),
-      json_vec(pose.room_from_head.translation), q.x(), q.y(), q.z(), q.w(), sigma_of(pose));
+      json_vec(pose.room_from_head.translation), q.x(), q.y(), q.z(), q.w(), sigma_of(pose),
+      followed);
 }
 
 }  // namespace vindu::app

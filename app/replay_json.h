@@ -11,7 +11,8 @@ namespace vindu::app {
 /// One report of a Wiimote; bytes that are none come with what is wrong with them.
 std::string json_of(const RecordedReport& report, const std::string& device);
 
-/// One pose; its time is moved by `shift`, in `t_ns`.
-std::string json_of(const PoseSample& pose, const Vec3& eye_in_wall, Duration shift);
+/// One pose, and whether it is that of the head that the wall follows; its time is moved by
+/// `shift`, in `t_ns`.
+std::string json_of(const PoseSample& pose, const Vec3& eye_in_wall, bool followed, Duration shift);
 
 }  // namespace vindu::app

@@ -36,11 +36,27 @@ TEST_F(TrackCommand, PrintsPosesAndWhatItLearnsOfTheCamerasAsJson) {
   const auto poses = lines_with(result.out, "eye_in_wall_m");
   ASSERT_GT(poses.size(), 10u);
   EXPECT_THAT(poses.back(), ContainsRegex(R"("object":0,"level":"six-dof","eye_in_wall_m":\[)"));
-  EXPECT_THAT(poses.back(), ContainsRegex(R"("sigma_m":0\.00)"));
+  EXPECT_THAT(poses.back(), ContainsRegex(R"("sigma_m":0\.00.*,"followed":true})"));
   for (std::size_t i = 1; i < poses.size(); ++i)
     EXPECT_GT(time_ns(poses[i]), time_ns(poses[i - 1]));
   EXPECT_THAT(lines_of(result.out),
               Contains(HasSubstr(R"("camera":"left","moved":false,"device_time":true)")));
+}
+
+TEST_F(TrackCommand, SaysWhichOfTwoHeadsIsFollowed) {
+  std::string wall = bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
+  const std::size_t head = wall.find("[head]"), leds = wall.find("leds_m", head);
+  const std::size_t eye = wall.find('\n', wall.find("eye_m", leds));
+  wall.replace(
+      head, eye - head,
+      "[[head]]\nname = \"anna\"\nleds_m = [[-0.09, 0, -0.09], [0, 0, 0], [0.09, 0, -0.09]]\n"
+      "[[head]]\nname = \"carl\"\nleds_m = [[0.1, 0, 0], [0, 0.1, 0], [-0.2, 0, 0.05]]");
+  const std::string file = write("two.toml", wall + "[tracking]\nfollow = \"carl\"\n");
+  const ProcessResult result = vindu({"track", "--json", "--seconds", "3", "--wall", file});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto poses = lines_with(result.out, R"("object":0,"level":"six-dof")");
+  ASSERT_FALSE(poses.empty()) << result.out;
+  EXPECT_THAT(poses, Each(HasSubstr(R"("followed":false)")));
 }
 
 TEST_F(TrackCommand, EndsWithATableWhenNotAskedForJson) {
