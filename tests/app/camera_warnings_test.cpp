@@ -1,0 +1,85 @@
+// What is said of cameras that contradict each other or the heads: once, and that it is over when
+// it has been so for half a minute.
+#include "app/camera_warnings.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tracker/camera_model.h"
+
+namespace vindu::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* kNothingFits = "the cameras see dots enough, but these fit no head";
+constexpr const char* kAllIsWell = "agree with each other and with the heads again";
+
+Site two_cameras() {
+  Site site;
+  for (const double x : {-1.0, 1.0}) {
+    CameraConfig camera;
+    camera.name = x < 0 ? "left" : "right";
+    camera.room_from_camera = look_at({x, 2.3, 5}, {0, 1.65, 2});
+    site.cameras.push_back(camera);
+  }
+  return site;
+}
+
+/// One before which another helmet moved for fifteen seconds.
+Tracker puzzled_tracker(const Site& site) {
+  Tracker tracker(site.cameras, site.heads, Rigid3{});
+  const std::vector<Vec3> others = {{-0.3, 1.65, 2}, {0, 1.95, 2.1}, {0.2, 1.65, 2}};
+  for (Time time{}; time < Time{std::chrono::seconds(15)}; time += std::chrono::milliseconds(10)) {
+    const Vec3 moved(0.25 * std::sin(1.3 * seconds(time.time_since_epoch())), 0, 0);
+    for (const int camera : {0, 1}) {
+      const CameraModel model(site.cameras[static_cast<std::size_t>(camera)]);
+      Observation seen{camera, time, {}};
+      for (const Vec3& led_in_room : others) {
+        const Vec2 raw_px = *model.project(model.camera_from_room() * (led_in_room + moved));
+        seen.dots.push_back({raw_px.x(), raw_px.y(), 3});
+      }
+      tracker.absorb(seen);
+    }
+    tracker.track(time, time);
+  }
+  return tracker;
+}
+
+class CameraWarningsTest : public ::testing::Test {
+ protected:
+  /// What is said while that tracker is looked at, once a second, from one second to another.
+  std::string said(const Tracker& tracker, int from_s, int to_s) {
+    ::testing::internal::CaptureStderr();
+    for (int second = from_s; second < to_s; ++second)
+      warnings_.look(tracker, Time{std::chrono::seconds(100 + second)});
+    return ::testing::internal::GetCapturedStderr();
+  }
+
+  const Site site_ = two_cameras();
+  const Tracker bad_ = puzzled_tracker(site_);
+  const Tracker good_{site_.cameras, site_.heads, Rigid3{}};
+  CameraWarnings warnings_{site_};
+};
+
+TEST_F(CameraWarningsTest, SayThatAllIsWellWhenItHasBeenForHalfAMinute) {
+  ASSERT_TRUE(bad_.nothing_fits());
+  EXPECT_THAT(said(bad_, 0, 1), HasSubstr(kNothingFits));
+  EXPECT_THAT(said(good_, 1, 31), IsEmpty());
+  EXPECT_THAT(said(good_, 31, 32), HasSubstr(kAllIsWell));
+  EXPECT_THAT(said(good_, 32, 100), IsEmpty());
+  EXPECT_THAT(said(bad_, 100, 101), HasSubstr(kNothingFits));
+}
+
+TEST_F(CameraWarningsTest, SayNothingAgainOfWhatComesBackWithinHalfAMinute) {
+  EXPECT_THAT(said(bad_, 0, 5), HasSubstr(kNothingFits));
+  EXPECT_THAT(said(good_, 5, 30), IsEmpty());
+  EXPECT_THAT(said(bad_, 30, 32), IsEmpty());
+  EXPECT_THAT(said(good_, 32, 62), IsEmpty());
+  EXPECT_THAT(said(good_, 62, 63), HasSubstr(kAllIsWell));
+}
+
+}  // namespace
+}  // namespace vindu::app
