@@ -110,7 +110,7 @@ PoseMessage pose_of(const Stamp& stamp) {
   PoseMessage message;
   message.pose.time = stamp.sent;
   message.pose.object = 0;
-  message.user_data = std::to_string(stamp.index);
+  message.tracker = std::to_string(stamp.index);
   return message;
 }
 
@@ -131,7 +131,7 @@ Carrier over_dds(const DdsSettings& settings) {
               pair.second->wait({Topic::pose}, now() + from_seconds(1));
               const auto message = pair.second->take_newest<PoseMessage>();
               if (!message) return std::nullopt;
-              return Stamp{std::atoi(message->user_data.c_str()), message->pose.time};
+              return Stamp{std::atoi(message->tracker.c_str()), message->pose.time};
             };
           }};
 }

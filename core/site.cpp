@@ -346,8 +346,6 @@ void refuse_shared_device(TomlTable& table, const CameraConfig& camera,
   }
 }
 
-constexpr std::size_t kMostCameras = 16;
-
 /// Fields of another source are not known, except that an emulated camera may stand in for any.
 void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
   for (TomlTable& table : root.tables("camera")) {
@@ -371,9 +369,9 @@ void read_cameras(TomlTable& root, std::vector<CameraConfig>& cameras) {
     camera.use_calibration = table.boolean("calibration").value_or(true);
     refuse_shared_device(table, camera, cameras);
     table.finish();
-    if (cameras.size() == kMostCameras)
+    if (cameras.size() == kMaxCameras)
       table.fail("name", fmt::format("is that of one camera too many; {} are tracked at most",
-                                     kMostCameras));
+                                     kMaxCameras));
     cameras.push_back(std::move(camera));
   }
 }

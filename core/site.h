@@ -58,6 +58,8 @@ struct VideoConfig {
   BlobOptions blobs;
 };
 
+constexpr std::size_t kMaxCameras = 16;  ///< that are tracked with
+
 struct CameraConfig {
   std::string name;
   CameraSource source = CameraSource::emulated;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/site.h"
 #include "tracker/joint/head_filter.h"
 #include "tracker/observation.h"
 
@@ -24,7 +25,6 @@ struct TimedDots {
   std::array<bool, kMaxDots> masked{};  ///< a known reflection, unless it is where an LED must be
 };
 
-constexpr std::size_t kMaxCameras = 16;
 constexpr std::size_t kMaxLeds = 16;
 
 /// A head, and whether it is tracked now.
