@@ -41,8 +41,8 @@ bool fits_closely(const FoundHead& found) {
          kLargest * static_cast<double>(std::max<std::ptrdiff_t>(2 * dots - 6, 1));
 }
 
-/// Few dots of more than half as many that are nobody's fit by chance, where cameras contradict
-/// each other.
+/// Whether it is of fewer than six dots, beside more than half as many of nobody: where cameras
+/// contradict each other, these fit by chance.
 bool few_beside_many(const FoundHead& found) {
   std::ptrdiff_t all = 0;
   for (const auto& leds : found.led_of_dot) all += std::ssize(leds);
@@ -50,8 +50,15 @@ bool few_beside_many(const FoundHead& found) {
   return own < kManyDots && 2 * (all - own) > own;
 }
 
+/// Than the head is tracked by. Of cameras of which one stands aside, some dots fit by chance.
+bool explains_more(const FoundHead& found, std::ptrdiff_t dots_tracked_by) {
+  return dots_of(found) >= std::max(kManyDots, dots_tracked_by + 1);
+}
+
 /// The fewer dots agree, the more often they must, unless those of a tracked head agree even less.
-int looks_needed(const FoundHead& found, bool contradicted) {
+/// One that is tracked there, by fewer dots, may be about to be tracked by them all.
+int looks_needed(const FoundHead& found, bool contradicted, bool better) {
+  if (better && !contradicted) return 10;
   return dots_of(found) >= kManyDots || contradicted ? 2 : 4;
 }
 
@@ -87,12 +94,13 @@ void JointMethod::absorb(const Observation& observation) {
   const CaptureTime& used = eye.uses_device_time ? device : arrival;
   Entry entry;
   entry.other_time = eye.uses_device_time ? arrival.time : device.time;
-  entry.seen = {.camera = observation.camera,
-                .captured = used.time,
-                .time_sigma_s = seconds(used.sigma),
-                .dot_sigma_px = std::hypot(options_.dot_sigma_px, disagreement_.sigma_px()),
-                .distrust = eye.watch.distrust(),
-                .dots = {}};
+  entry.seen = {
+      .camera = observation.camera,
+      .captured = used.time,
+      .time_sigma_s = seconds(used.sigma),
+      .dot_sigma_px = std::hypot(options_.dot_sigma_px, disagreement_.sigma_px(), aside_px(eye)),
+      .distrust = eye.watch.distrust(),
+      .dots = {}};
   for (const Dot& dot : observation.dots) {
     entry.seen.masked[entry.seen.dots.size()] = eye.statics.masked(raw_px_of(dot));
     entry.seen.dots.push_back(dot);
@@ -345,8 +353,22 @@ bool JointMethod::dots_enough(const Look& look, std::size_t head) const {
   return std::ranges::count_if(look.search.views(), all) >= 2;
 }
 
-/// Whether its dots are nearly as well another's, which nobody tracks. Heads that are tolerantly
-/// looked for are not to be taken for each other.
+/// Dots of the cameras' newest reports by which a head is tracked.
+std::ptrdiff_t JointMethod::dots_tracked_by(std::size_t head) const {
+  std::vector<bool> done(cameras_.size(), false);
+  std::ptrdiff_t dots = 0;
+  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
+    const auto camera = static_cast<std::size_t>(entry->seen.camera);
+    if (done[camera]) continue;
+    done[camera] = true;
+    dots +=
+        std::ranges::count(entry->association.accepted, static_cast<int>(head), &AcceptedDot::head);
+  }
+  return dots;
+}
+
+/// Whether its dots are nearly as well another's, which nobody tracks: where something is allowed
+/// for what cameras contradict each other, heads are not to be taken for each other.
 bool JointMethod::may_be_another(const Look& look, std::size_t head, const FoundHead& found) const {
   AcquisitionOptions options = acquisition_options({}, look.slack_px);
   const double clear_by = std::exchange(options.least_margin, 0);
@@ -364,13 +386,13 @@ void JointMethod::conclude(std::size_t head) {
   const Look& look = *search.look;
   const auto found = look.search.winner();
   const bool doubted = !look.tracked || contradicted(head);
-  const bool fits =
-      found && (options_.position_only || fits_closely(*found)) &&
-      (!look.tolerant || (dots_of(*found) >= kManyDots && !may_be_another(look, head, *found)));
+  const bool fits = found && (options_.position_only || fits_closely(*found)) &&
+                    (!look.tolerant || dots_of(*found) >= kManyDots) &&
+                    (look.slack_px == 0 || look.tracked || !may_be_another(look, head, *found));
   if (fits) judge_cameras(look.search.views(), *found);
-  const bool known =
-      fits && (found->believed || (look.tracked && !(look.tolerant && doubted) &&
-                                   same_pose(found->fit.room_from_head, *look.tracked)));
+  const bool there = fits && look.tracked && same_pose(found->fit.room_from_head, *look.tracked);
+  const bool better = there && explains_more(*found, dots_tracked_by(head));
+  const bool known = fits && (found->believed || (there && !better && !(look.tolerant && doubted)));
   if (!fits || known) {
     if (doubted)
       search.failed.add(dots_enough(look, head));
@@ -382,7 +404,7 @@ void JointMethod::conclude(std::size_t head) {
   const bool again = search.rumour && same_pose(pose, *search.rumour);
   search.rumour = pose;
   search.confirmed = again ? search.confirmed + 1 : 1;
-  if (search.confirmed < looks_needed(*found, look.tracked && doubted)) return;
+  if (search.confirmed < looks_needed(*found, look.tracked && doubted, better)) return;
   const auto newest = entry_of(look);
   if (!newest) return;
   if (doubted && few_beside_many(*found))
@@ -399,8 +421,8 @@ void JointMethod::update(Time now) {
   for (std::size_t head = 0; head < searches_.size(); ++head) {
     look_for(head, now);
     go_on(head);
+    replay();  // the next head is not found of the dots that this one was found of
   }
-  replay();
   for (std::size_t head = 0; head < searches_.size(); ++head) {
     const HeadTrack& track = newest_heads()[head];
     if (!track.state) continue;

@@ -32,7 +32,7 @@ struct CameraHealth {
   bool moved = false;        ///< its dots do not fit what the others see
   bool device_time = false;  ///< its own clock is known; else arrivals are used
   std::size_t masks = 0;     ///< reflections that are ignored
-  double aside_px = 0;       ///< how far its dots stand from where all cameras expect them
+  double aside_px = 0;       ///< of three or more: its dots, from where all expect them
 };
 
 /// Bound to one thread at a time.
@@ -108,9 +108,11 @@ class JointMethod {
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart, double slack_px) const;
   bool may_contradict() const;
   void note_disagreement();
+  double aside_px(const Eye& eye) const;
   std::vector<MisfitDot> misfit_of(const Entry& entry) const;
   bool seen_by_others(const Entry& entry, std::size_t head) const;
   AcquisitionOptions acquisition_options(const HeadTrack& head, double slack_px) const;
+  std::ptrdiff_t dots_tracked_by(std::size_t head) const;
   bool may_be_another(const Look& look, std::size_t head, const FoundHead& found) const;
   bool dots_enough(const Look& look, std::size_t head) const;
   Duration pause_of_looks(std::size_t head) const;

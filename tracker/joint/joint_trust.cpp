@@ -150,17 +150,21 @@ std::vector<MisfitDot> JointMethod::misfit_of(const Entry& entry) const {
     dots.push_back({raw_px_of(entry.seen.dots[dot.dot]) - dot.residual_px, dot.residual_px});
   if (!dots.empty() || entry.seen.dots.size() < 2) return dots;
   const CameraModel& camera = cameras_[static_cast<std::size_t>(entry.seen.camera)];
+  std::array<bool, kMaxDots> taken = entry.seen.masked;
   for (std::size_t head = 0; head < leds_of_heads_.size(); ++head) {
     if (!seen_by_others(entry, head)) continue;
     for (const Vec3& led : leds_of_heads_[head]) {
       const auto expected = dot_of_led(camera, entry.after[head].state->room_from_head, led);
       if (!expected) continue;
-      Vec2 nearest_px = Vec2::Constant(kNext_px);
-      for (const Dot& dot : entry.seen.dots)
-        if (const Vec2 off_px = raw_px_of(dot) - expected->raw_px;
-            off_px.norm() < nearest_px.norm())
-          nearest_px = off_px;
-      if (nearest_px.norm() < kNext_px) dots.push_back({expected->raw_px, nearest_px});
+      const auto off_px = [&](std::size_t i) -> Vec2 {
+        return raw_px_of(entry.seen.dots[i]) - expected->raw_px;
+      };
+      std::optional<std::size_t> next;
+      for (std::size_t i = 0; i < entry.seen.dots.size(); ++i)
+        if (!taken[i] && off_px(i).norm() < (next ? off_px(*next).norm() : kNext_px)) next = i;
+      if (!next) continue;
+      taken[*next] = true;
+      dots.push_back({expected->raw_px, off_px(*next)});
     }
   }
   return dots.size() < 2 ? std::vector<MisfitDot>{} : dots;
@@ -174,6 +178,16 @@ double JointMethod::heads_look_larger() const {
   return eyes_.size() > 1 ? most : 0;
 }
 
+/// What of a camera's dots does not fit, where those of two others do: of two nobody can say which
+/// is wrong. As Disagreement has it, a little is usual.
+double JointMethod::aside_px(const Eye& eye) const {
+  constexpr double kUsual_px = 1.2;
+  if (options_.position_only) return 0;
+  const auto fits = [](const Eye& other) { return other.watch.aside_px().norm() < kUsual_px; };
+  if (fits(eye) || std::ranges::count_if(eyes_, fits) < 2) return 0;
+  return eye.watch.aside_px().norm();
+}
+
 bool JointMethod::nothing_fits() const {
   return !options_.position_only && std::ranges::any_of(searches_, [](const Search& search) {
     return search.failed.baffled();
@@ -181,13 +195,12 @@ bool JointMethod::nothing_fits() const {
 }
 
 std::vector<CameraHealth> JointMethod::health() const {
-  const bool compared = eyes_.size() > 1 && !options_.position_only;
   std::vector<CameraHealth> health;
   for (const Eye& eye : eyes_)
     health.push_back({.moved = eye.watch.moved(),
                       .device_time = eye.uses_device_time && eye.clock.locked(),
                       .masks = eye.statics.masks_px().size(),
-                      .aside_px = compared ? eye.watch.aside_px().norm() : 0});
+                      .aside_px = aside_px(eye)});
   return health;
 }
 
