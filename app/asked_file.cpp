@@ -12,11 +12,8 @@
 #include "core/new_file.h"
 
 namespace vindu::app {
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
 
 void note(const CommandMessage& command, Asked& asked) {
   const std::string& word = command.argument;
@@ -60,7 +57,7 @@ std::optional<Asked> AskedFile::take() {
 void AskedFile::keep(const Asked& asked) {
   if (session_.empty()) return;
   try {
-    const std::string remedy = "free some space there";
+    const std::string remedy = "is XDG_RUNTIME_DIR still there, with space?";
     NewFile fresh(path());
     fresh.write(text_of(asked, session_), remedy);
     fresh.place(remedy);

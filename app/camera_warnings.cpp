@@ -15,7 +15,18 @@ namespace {
 /// What was wrong is not over before it has not been so for this time: people move in between.
 constexpr Duration kOver = std::chrono::seconds(30);
 
+bool stands_aside(const CameraHealth& camera) {
+  constexpr double kTold_px = 2;
+  return camera.aside_px > kTold_px;
+}
+
 }  // namespace
+
+std::optional<std::size_t> camera_aside(const std::vector<CameraHealth>& health) {
+  const auto most = std::ranges::max_element(health, {}, &CameraHealth::aside_px);
+  if (most == health.end() || !stands_aside(*most)) return std::nullopt;
+  return static_cast<std::size_t>(most - health.begin());
+}
 
 CameraWarnings::CameraWarnings(const Site& site) {
   for (const CameraConfig& camera : site.cameras) cameras_.push_back({.name = camera.name});
@@ -68,30 +79,26 @@ CameraWarnings::Complaint::News CameraWarnings::Complaint::look(bool wrong, Time
   return News::over;
 }
 
-// Of two cameras nobody can say which is wrong. Where one of more was bumped, the others seem to
-// stand aside as well, by less.
 void CameraWarnings::look_at_cameras(const Tracker& tracker, Time now) {
   using News = Complaint::News;
-  constexpr double kTold_px = 2;
   const auto health = tracker.camera_health();
-  const auto most = std::ranges::max_element(health, {}, &CameraHealth::aside_px);
+  const auto most = camera_aside(health);
   for (std::size_t i = 0; i < health.size(); ++i) {
     Camera& camera = cameras_[i];
-    const bool is_most = health.begin() + static_cast<std::ptrdiff_t>(i) == most;
-    const bool aside = health.size() > 2 && is_most && health[i].aside_px > kTold_px;
+    const bool aside = most == i || (camera.aside.told() && stands_aside(health[i]));
     const News moved = camera.moved.look(health[i].moved, now);
-    const News stands_aside = camera.aside.look(aside, now);
+    const News off = camera.aside.look(aside, now);
     if (moved == News::begins)
       log_warning(camera.name,
                   "was moved: its dots do not fit what the others see, and count for less; "
                   "calibrate it again (vindu calibrate)");
-    else if (stands_aside == News::begins && !camera.moved.told())
+    else if (off == News::begins && !camera.moved.told())
       log_warning(camera.name,
                   fmt::format("its dots stand {:.0f} px aside of where the others expect them: it "
                               "was moved a little, or its calibration does not hold; calibrate it "
                               "again (vindu calibrate)",
                               health[i].aside_px));
-    const bool over = moved == News::over || stands_aside == News::over;
+    const bool over = moved == News::over || off == News::over;
     if (over && !camera.moved.told() && !camera.aside.told())
       log_info(camera.name, "agrees with the others again");
   }

@@ -2,6 +2,7 @@
 // other or the heads. Said when it becomes so, and when it is over.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "tracker/tracker.h"
 
 namespace vindu::app {
+
+/// The camera of three or more that stands aside of the others the most, and by more than is usual:
+/// its index. Where one was bumped, others may seem to stand aside as well, by less.
+std::optional<std::size_t> camera_aside(const std::vector<CameraHealth>& health);
 
 class CameraWarnings {
  public:

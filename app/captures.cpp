@@ -32,7 +32,7 @@ void write(const std::string& folder, const std::string& file, const std::string
            const Image& picture) {
   NewFile fresh(folder + "/" + file);
   write_png(picture, fresh.beside());
-  fresh.place("free some space there");
+  fresh.place("is XDG_RUNTIME_DIR still there, with space?");
   forget_old(folder, tile);
 }
 

@@ -41,16 +41,28 @@ std::string shown(const std::optional<CalibrationNote>& note) {
   return text;
 }
 
-/// Why nothing can be tracked, or not this head, by [tracking] of the wall file; "" where it can.
+/// Of the LEDs that are needed, by [tracking] of the wall file and by how many cameras there are:
+/// one knows no distance of its own, three LEDs do.
+std::size_t least_leds(const Site& site) {
+  if (site.tracking.mode == "six-dof" || site.cameras.size() == 1) return 3;
+  return site.tracking.mode == "position" ? 1 : 2;
+}
+
+/// Why nothing can be tracked, or not this head; "" where it can.
 std::string tracking_remark(const Site& site, const HeadConfig& head) {
-  const auto& [method, mode, follow] = site.tracking;
-  const std::size_t least = mode == "position" ? 1 : mode == "six-dof" ? 3 : 2;
-  const std::size_t leds = head.leds_in_head.size();
+  const std::string& mode = site.tracking.mode;
+  const bool alone = site.cameras.size() == 1;
+  if (mode == "position" && alone)
+    return "warning: mode = \"position\" of [tracking] needs two cameras, and there is one: "
+           "nothing "
+           "will be found. Write mode = \"auto\", or add a camera.\n";
+  const std::size_t least = least_leds(site), leds = head.leds_in_head.size();
   if (leds < least)
     return fmt::format(
-        "warning: mode = \"{}\" of [tracking] needs {} LEDs or more, and leds_m of {} has {}: "
-        "nothing will be found. Write mode = \"position\", or add LEDs.\n",
-        mode, least, head.name, leds);
+        "warning: mode = \"{}\" of [tracking] needs {} LEDs or more{}, and leds_m of {} has {}: "
+        "nothing will be found. {}add LEDs.\n",
+        mode, least, alone ? " with one camera" : "", head.name, leds,
+        alone ? "Add a camera, or " : "Write mode = \"position\", or ");
   try {
     if (!site.cameras.empty() && &head == &site.heads.front()) {
       const Tracker starts(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);

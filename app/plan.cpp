@@ -320,7 +320,7 @@ void add_plan(CLI::App& parent, Action& chosen) {
       ->check(between(0.0, 20.0));
   CLI::Option* const propose =
       app->add_option("--propose", options->propose, "Places for so many cameras")
-          ->check(CLI::Range(1, 16))
+          ->check(CLI::Range(std::size_t{1}, kMaxCameras))
           ->type_name("N");
   add_numbers(*app, "--room", options->room, 4, 4,
               "Where the rails run, of the proposal (default: 1.2 m aside of the area, 2 m behind)")

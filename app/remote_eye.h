@@ -1,6 +1,7 @@
 // The eye as a tracker elsewhere on the bus sees it; this machine's own cameras in reserve.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ class RemoteEye final : public EyeSource {
   const std::string& tracker() const { return tracker_; }
 
  private:
+  bool follows(const PoseMessage& message) const;
   void hear(const PoseMessage& message, Time now);
 
   Bus& bus_;
@@ -35,6 +37,7 @@ class RemoteEye final : public EyeSource {
   EyeEase ease_;
   std::optional<Time> heard_;
   std::string tracker_;
+  std::uint32_t strength_ = 0;
   Duration capture_delay_{};  // from the capture of the newest pose to its time
 };
 

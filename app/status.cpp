@@ -45,11 +45,11 @@ std::string json_of(const std::optional<ReportMessage>& report) {
   return fmt::format(
       R"({{"frames": {}, "fps": {:.2f}, "tracked": {}, "level": {}, "parts_ms": {{{}}}, )"
       R"("motion_to_photon_ms": {}, "skew_ms": {}, "locked": {}, "evicted": {}, )"
-      R"("restarted": {}, "event": {}, "tracker": {}}})",
+      R"("restarted": {}, "event": {}}})",
       frames.frames, frames.frames_per_s, frames.tracked,
       json_text(std::string(name_of(report->level))), parts, json_of(frames.motion_to_photon_ms),
       json_of(frames.skew_ms), report->locked, report->evictions, report->restarts,
-      json_text(report->event), report->tracker.empty() ? "null" : json_text(report->tracker));
+      json_text(report->event));
 }
 
 std::string json_of(const std::optional<TileNow::Twin>& twin) {
@@ -80,13 +80,15 @@ std::string json_of(const WallNow& wall) {
     trackers += (trackers.empty() ? "" : ", ") + json_text(name);
   for (const std::string& line : wall.complaints)
     complaints += (complaints.empty() ? "" : ", ") + json_text(line);
+  const std::string heard = wall.heard_tracker();
   return fmt::format(
       R"({{"good": {}, "complaints": [{}], "master": {}, "epoch": {}, "frame": {}, "fps": {:.2f}, )"
       R"("pattern": {}, "blank": {}, "active_tiles": {}, "report": {}, )"
-      R"("trackers": [{}], "tiles": [{}]}})",
+      R"("trackers": [{}], "heard_tracker": {}, "tiles": [{}]}})",
       wall.good(), complaints, wall.master ? json_text(wall.master->host) : "null", wall.epoch,
       wall.frame, wall.frames_per_s, json_text(std::string(name_of(wall.pattern))), wall.blank,
-      wall.active_tiles, json_of(wall.report), trackers, tiles);
+      wall.active_tiles, json_of(wall.report), trackers, heard.empty() ? "null" : json_text(heard),
+      tiles);
 }
 
 void print(const StatusCommand& command, const WallNow& wall) {
@@ -102,7 +104,7 @@ void print(const StatusCommand& command, const WallNow& wall) {
 
 /// Where no frame and no tile is heard. A master may be known to be there: names are no secret.
 void say_why_nobody(const WallNow& wall, const Site& site) {
-  const auto heard = [](const TileNow& tile) { return tile.state != "missing"; };
+  const auto heard = [](const TileNow& tile) { return !tile.missing(); };
   if (wall.frame > 0 || std::ranges::any_of(wall.tiles, heard)) return;
   log_info("status",
            site.cluster.keys.empty()

@@ -1,6 +1,7 @@
 // vindu tile: a tile of the wall, or several of one host. It hears frames from the master, draws
 // its part of each, and shows it when all tiles have theirs.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <random>

@@ -73,6 +73,8 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
     if (health[i].masks)
       line += fmt::format("  {}: {} masked", site.cameras[i].name, health[i].masks);
   }
+  if (const auto i = camera_aside(health))
+    line += fmt::format("  {} stands {:.0f} px aside!", site.cameras[*i].name, health[*i].aside_px);
   if (tracker.nothing_fits()) line += "  the dots fit no head!";
   if (const double px = tracker.disagreement_px(); px >= 1)
     line += fmt::format("  cameras contradict each other by {:.0f} px!", px);
@@ -89,6 +91,7 @@ class Publisher {
  public:
   Publisher(const Site& site, int strength)
       : name_("tracker-" + host_name() + "-" + std::to_string(getpid())),
+        strength_(strength),
         transport_(network_of(site, Role::tracker)),
         bus_(transport_.join({this_participant(Role::tracker, name_, site),
                               {Topic::pose, Topic::event},
@@ -101,12 +104,14 @@ class Publisher {
         bus_->publish(PoseMessage{.pose = pose,
                                   .sent_time = now,
                                   .followed = followed && followed->object == pose.object,
-                                  .tracker = name_});
+                                  .tracker = name_,
+                                  .strength = static_cast<std::uint32_t>(strength_)});
   }
   void publish(const EventMessage& event) { bus_->publish(event); }
 
  private:
   std::string name_;
+  int strength_;
   DdsTransport transport_;
   std::unique_ptr<Bus> bus_;
 };
@@ -134,6 +139,10 @@ void print_table(const Tracker& tracker, const Cameras& cameras, const Site& sit
     fmt::print("  {:<9} {}, {} reflections masked{}\n", site.cameras[i].name,
                health[i].device_time ? "times by its own clock" : "times by arrival",
                health[i].masks, health[i].moved ? ", was MOVED: calibrate it again" : "");
+  if (const auto i = camera_aside(health))
+    fmt::print(
+        "  {} stands {:.0f} px aside of where the others expect its dots: calibrate it again\n",
+        site.cameras[*i].name, health[*i].aside_px);
   if (!misfit.empty()) fmt::print("  {}\n", misfit);
   for (const CameraState& camera : cameras.states())
     if (camera.gaps)

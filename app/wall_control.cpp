@@ -37,10 +37,10 @@ int ask(const ControlCommand& command, Verb verb, const std::string& argument) {
   return 0;
 }
 
-void add_common(CLI::App& app, ControlCommand& command) {
+CLI::Option* add_common(CLI::App& app, ControlCommand& command) {
   app.add_option("--wall", command.wall_file, "Wall file (default: the 7x4 Tromsø wall)")
       ->type_name("FILE");
-  app.add_option("--timeout", command.timeout_s, "Seconds to wait for the answer")
+  return app.add_option("--timeout", command.timeout_s, "Seconds to wait for the answer")
       ->check(between(0.1, 3600.0))
       ->capture_default_str();
 }
@@ -172,7 +172,8 @@ void add_overlay(CLI::App& parent, Action& chosen) {
 void add_stop(CLI::App& parent, Action& chosen) {
   auto command = std::make_shared<ControlCommand>();
   CLI::App* app = parent.add_subcommand("stop", "Ends a running wall");
-  add_common(*app, *command);
+  add_common(*app, *command)
+      ->description("Seconds to wait for the answer; then ten more until it has ended");
   add_engine(*app, command->engine);
   app->footer("\nExamples:\n  vindu stop\n  vindu stop --wall wall.toml\n");
   app->callback([command, &chosen] {

@@ -32,7 +32,7 @@ class Asking {
       bus_->publish(command_);
       next_ = now + kAskAgain;
     }
-    bus_->wait({Topic::answer, Topic::presence}, std::min(next_, limit()));
+    bus_->wait({Topic::answer, Topic::presence}, next_);
     for (const Presence& presence : bus_->take<Presence>())
       if (presence.who.role == Role::master) hear(presence);
     for (AnswerMessage& answer : bus_->take<AnswerMessage>())
@@ -101,16 +101,19 @@ AnswerMessage ask_wall(Transport& transport, const Participant& self, const Requ
   return *asking.answer();
 }
 
-void stop_wall(Transport& transport, const Participant& self, Duration patience) {
+void stop_wall(Transport& transport, const Participant& self, Duration patience,
+               Duration patience_of_end) {
   Asking asking(transport, self, {.verb = Verb::stop}, patience);
-  while (!asking.master_left() && asking.patient()) {
-    asking.turn();
-    if (asking.answer()) expect_done(*asking.answer());
-  }
+  while (!asking.master_left() && !asking.answer() && asking.patient()) asking.turn();
   if (asking.master_left()) return;
   if (!asking.answer()) asking.give_up();
-  throw Error({"was told to end and has not", "the master",
-               "wait longer (--timeout), or end it where it runs: pkill -f 'vindu master'"});
+  expect_done(*asking.answer());
+  const Time limit = std::chrono::steady_clock::now() + patience_of_end;
+  while (!asking.master_left() && std::chrono::steady_clock::now() < limit) asking.turn();
+  if (!asking.master_left())
+    throw Error({"was told to end and has not", "the master",
+                 "see what it says; if it hangs, end it where it runs: pkill -KILL -f 'vindu "
+                 "(launch|master)'"});
 }
 
 void expect_done(const AnswerMessage& answer) {

@@ -28,8 +28,10 @@ AnswerMessage ask_wall(Transport& transport, const Participant& self, const Requ
                        Duration patience);
 
 /// Asks the wall to stop, and returns when its master has gone, whoever else asked for that. Throws
-/// Error as ask_wall does, and where it does not go.
-void stop_wall(Transport& transport, const Participant& self, Duration patience);
+/// Error as ask_wall does, and where it does not go in time after its answer: it may be reading
+/// a model.
+void stop_wall(Transport& transport, const Participant& self, Duration patience,
+               Duration patience_of_end = std::chrono::seconds(10));
 
 /// Throws Error with what the wall said where it did not do it.
 void expect_done(const AnswerMessage& answer);

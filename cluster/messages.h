@@ -117,10 +117,11 @@ struct WallMessage {
 
 /// Tracker to all; of two sources of one object the stronger is heard.
 struct PoseMessage {
-  PoseSample pose{};      ///< its times are the tracker's clock's
-  Time sent_time{};       ///< the tracker's clock
-  bool followed = false;  ///< the tracker's choice: the wall shows this one's view
-  std::string tracker{};  ///< who says it, as in its Participant
+  PoseSample pose{};           ///< its times are the tracker's clock's
+  Time sent_time{};            ///< the tracker's clock
+  bool followed = false;       ///< the tracker's choice: the wall shows this one's view
+  std::string tracker{};       ///< who says it, as in its Participant
+  std::uint32_t strength = 0;  ///< of that one's Membership
 };
 
 /// Master to all: the thesis' camera event.

@@ -152,7 +152,7 @@ std::string report_text(const WallNow& wall) {
 std::string missing_text(const WallNow& wall) {
   std::vector<std::string> names;
   for (const TileNow& tile : wall.tiles)
-    if (tile.state == kMissing) names.push_back(tile.name);
+    if (tile.missing()) names.push_back(tile.name);
   if (!wall.master || names.empty()) return "";
   return fold_names(names) +
          ": no word; see its lines (vindu logs; of a wall on one machine, where vindu launch "
@@ -164,6 +164,10 @@ std::string missing_text(const WallNow& wall) {
 bool WallNow::good() const {
   return master && complaints.empty() && std::ranges::all_of(tiles, &TileNow::good);
 }
+
+std::string WallNow::heard_tracker() const { return master && report ? report->tracker : ""; }
+
+bool TileNow::missing() const { return state == TileNow{}.state; }
 
 bool TileNow::good() const { return state == name_of(TileState::ready) && !twin; }
 
@@ -242,9 +246,11 @@ void WallView::hear(const ReportMessage& report) {
 
 std::string table_of(const WallNow& wall) {
   std::string text = master_line(wall) + report_text(wall) + text_of(rows_of(wall));
+  const std::string heard = wall.heard_tracker();
   for (const std::string& tracker : wall.trackers)
-    text += tracker +
-            (wall.report && wall.report->tracker == tracker ? " is heard\n" : " is in reserve\n");
+    text += tracker + (tracker == heard ? " is heard\n"
+                       : heard.empty()  ? " is there\n"
+                                        : " is in reserve\n");
   for (const TileNow& tile : wall.tiles)
     if (tile.twin)
       text += fmt::format("{} runs twice, as process {} on {} and {} on {}: end one of them\n",

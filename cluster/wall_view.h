@@ -29,7 +29,8 @@ struct TileNow {
   };
   std::optional<Twin> twin{};
 
-  bool good() const;  ///< ready, and in the frame lock
+  bool good() const;     ///< ready, and in the frame lock
+  bool missing() const;  ///< nothing was ever heard of it
 };
 
 struct WallNow {
@@ -46,6 +47,8 @@ struct WallNow {
   std::vector<std::string> trackers{};
   std::vector<std::string> complaints{};  ///< about who is there (cluster/roll.h)
 
+  /// Whose poses the wall follows; empty: no tracker's.
+  std::string heard_tracker() const;
   /// A master, and all tiles ready.
   bool good() const;
 };

@@ -1,5 +1,7 @@
 #include "core/new_file.h"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -13,10 +15,12 @@ NewFile::~NewFile() {
 }
 
 void NewFile::write(std::string_view content, const std::string& remedy) const {
+  errno = 0;
   std::ofstream stream(beside_, std::ios::binary);
   stream << content;
   stream.close();
-  if (!stream) throw Error({"cannot be written", file_, remedy});
+  if (!stream)
+    throw Error({std::string("cannot be written: ") + std::strerror(errno), file_, remedy});
 }
 
 void NewFile::place(const std::string& remedy) {

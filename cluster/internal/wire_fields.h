@@ -186,6 +186,7 @@ void fields(Op& op, Wire& wire, Value& message) {
   op.time(wire.sent_time_ns, message.sent_time);
   op.flag(wire.followed, message.followed);
   op.text(wire.tracker, message.tracker);
+  op.count(wire.strength, message.strength);
 }
 
 template <class Op, class Wire, class Value>

@@ -7,12 +7,15 @@
 #include <cmath>
 
 #include "tracker/camera_model.h"
+#include "tracker/joint/rotation.h"
 
 namespace vindu::app {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr const char* kNothingFits = "the cameras see dots enough, but these fit no head";
 constexpr const char* kAllIsWell = "agree with each other and with the heads again";
@@ -63,6 +66,42 @@ class CameraWarningsTest : public ::testing::Test {
   const Tracker good_{site_.cameras, site_.heads, Rigid3{}};
   CameraWarnings warnings_{site_};
 };
+
+/// The third of three cameras was turned by so many pixels after they were calibrated.
+std::string said_of_three_cameras(double px) {
+  Site site = two_cameras();
+  CameraConfig third = site.cameras.front();
+  third.name = "third";
+  third.room_from_camera = look_at({0, 2.5, 5}, {0, 1.65, 2});
+  site.cameras.push_back(third);
+  Tracker tracker(site.cameras, site.heads, Rigid3{});
+  Rigid3& turned = site.cameras[2].room_from_camera;
+  turned.rotation = turned.rotation * rotation_of({px / 1335, 0, 0});
+  CameraWarnings warnings(site);
+  ::testing::internal::CaptureStderr();
+  for (Time time{}; time < Time{std::chrono::seconds(15)}; time += std::chrono::milliseconds(10)) {
+    const Vec3 head_in_room(0.25 * std::sin(1.3 * seconds(time.time_since_epoch())), 1.65, 2);
+    for (const int camera : {0, 1, 2}) {
+      const CameraModel model(site.cameras[static_cast<std::size_t>(camera)]);
+      Observation seen{camera, time, {}};
+      for (const Vec3& led_in_head : site.heads.front().leds_in_head) {
+        const Vec2 raw_px = *model.project(model.camera_from_room() * (head_in_room + led_in_head));
+        seen.dots.push_back({std::round(raw_px.x()), std::round(raw_px.y()), 3});
+      }
+      tracker.absorb(seen);
+    }
+    tracker.track(time, time);
+    warnings.look(tracker, time);
+  }
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(CameraWarningsOfThree, NameTheOneThatStandsAsideOrWasMoved) {
+  EXPECT_THAT(said_of_three_cameras(0), IsEmpty());
+  EXPECT_THAT(said_of_three_cameras(5), AllOf(HasSubstr("third: its dots stand"),
+                                              Not(HasSubstr("left: ")), Not(HasSubstr("right: "))));
+  EXPECT_THAT(said_of_three_cameras(60), HasSubstr("third: was moved"));
+}
 
 TEST_F(CameraWarningsTest, SayThatAllIsWellWhenItHasBeenForHalfAMinute) {
   ASSERT_TRUE(bad_.nothing_fits());

@@ -116,7 +116,19 @@ TEST_F(Consoles, NeedNoAnswerOfAMasterThatAnotherOneStopped) {
 
 TEST_F(Consoles, SayThatAMasterDoesNotEnd) {
   const auto bus = join_master();
-  EXPECT_THROW(stop_wall(transport_, console("c"), 50ms), Error);
+  CommandDesk desk(*bus, "master");
+  std::jthread master([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      bus->wait({Topic::command}, in_ms(10));
+      for (const CommandMessage& command : desk.take()) desk.answer(command, true);
+    }
+  });
+  try {
+    stop_wall(transport_, console("c"), 60s, 50ms);
+    FAIL() << "it says that it has ended";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("was told to end and has not"));
+  }
 }
 
 TEST_F(Consoles, TheDeskGivesTheSameAnswerToARepeatedCommand) {

@@ -103,7 +103,8 @@ PoseMessage pose(Random& random) {
   PoseMessage message{.pose = {},
                       .sent_time = time(random),
                       .followed = random.uniform(0, 1) < 0.5,
-                      .tracker = text(random, 60)};
+                      .tracker = text(random, 60),
+                      .strength = static_cast<std::uint32_t>(random.uniform(0, 1000))};
   message.pose.object = static_cast<int>(random.uniform(-100, 100));
   message.pose.time = time(random);
   message.pose.capture_time = time(random);

@@ -210,6 +210,7 @@ TEST_F(Views, NameATileThatRunsTwiceAndFollowTheNewerProcess) {
 TEST_F(Views, NameTheTrackerThatIsHeard) {
   for (const char* name : {"tracker-a-1", "tracker-b-2"})
     view_.hear(Presence{PresenceChange::joined, {.role = Role::tracker, .name = name}});
+  EXPECT_THAT(table_of(view_.now()), HasSubstr("tracker-a-1 is there\ntracker-b-2 is there"));
   ReportMessage report = report_of("", 0.4);
   report.tracker = "tracker-b-2";
   view_.hear(report);

@@ -73,8 +73,8 @@ JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const 
                          const JointOptions& options)
     : options_(options), base_(heads.size()), searches_(heads.size()) {
   if (cameras.size() > kMaxCameras)
-    throw Error(
-        {"names " + std::to_string(cameras.size()) + " cameras", "[[camera]]", "name 16 at most"});
+    throw Error({"names " + std::to_string(cameras.size()) + " cameras", "[[camera]]",
+                 "name " + std::to_string(kMaxCameras) + " at most"});
   association_.turns = !options.position_only;
   association_.fixed_noise = options.fixed_noise;
   for (const CameraConfig& camera : cameras) {

@@ -64,7 +64,7 @@ void write_key_file(const fs::path& file, const std::string& text) {
   write_all(handle, text, file);
   fsync(handle);
   close(handle);
-  fresh.place("free some space");
+  fresh.place("choose another folder (--out)");
 }
 
 void expect_private(const fs::path& file) {
