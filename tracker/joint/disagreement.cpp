@@ -16,7 +16,7 @@ constexpr int kBaffled = 400;  // ten seconds: lamps are masked by then
 void Disagreement::found_with(double sigma_px) { sigma_px_ = std::max(sigma_px_, sigma_px); }
 
 void Disagreement::note_aside(double largest_px) {
-  constexpr double kUsual_px = 1.2, kUp = 0.02, kDown = 0.001;
+  constexpr double kUsual_px = 0.8, kUp = 0.02, kDown = 0.001;
   const double wanted_px = largest_px > kUsual_px ? std::min(largest_px, kTried_px.back()) : 0;
   sigma_px_ += (wanted_px > sigma_px_ ? kUp : kDown) * (wanted_px - sigma_px_);
   if (wanted_px == 0 && sigma_px_ < 0.1) sigma_px_ = 0;

@@ -181,7 +181,7 @@ double JointMethod::heads_look_larger() const {
 /// What of a camera's dots does not fit, where those of two others do: of two nobody can say which
 /// is wrong. As Disagreement has it, a little is usual.
 double JointMethod::aside_px(const Eye& eye) const {
-  constexpr double kUsual_px = 1.2;
+  constexpr double kUsual_px = 0.8;
   if (options_.position_only) return 0;
   const auto fits = [](const Eye& other) { return other.watch.aside_px().norm() < kUsual_px; };
   if (fits(eye) || std::ranges::count_if(eyes_, fits) < 2) return 0;

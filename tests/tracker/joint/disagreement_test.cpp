@@ -16,7 +16,7 @@ void stand_aside(Disagreement& disagreement, double px) {
 
 TEST(Disagreement, is_what_dots_stand_aside_by_where_that_is_more_than_usual) {
   Disagreement disagreement;
-  stand_aside(disagreement, 1);
+  stand_aside(disagreement, 0.7);
   EXPECT_EQ(disagreement.sigma_px(), 0);
   for (const double px : {1.5, 4.0, 9.0}) {
     stand_aside(disagreement, px);
