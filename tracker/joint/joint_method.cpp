@@ -391,8 +391,9 @@ void JointMethod::conclude(std::size_t head) {
                     (look.slack_px == 0 || look.tracked || !may_be_another(look, head, *found));
   if (fits) judge_cameras(look.search.views(), *found);
   const bool there = fits && look.tracked && same_pose(found->fit.room_from_head, *look.tracked);
-  const bool better =  // of two cameras a tolerant look is, where few dots are the head's
-      there && explains_more(*found, dots_tracked_by(head)) && !(doubted && may_contradict());
+  // Of two cameras that contradict each other, a tolerant look is to find them all.
+  const bool chance = doubted && may_contradict();
+  const bool better = there && !chance && explains_more(*found, dots_tracked_by(head));
   const bool known = fits && (found->believed || (there && !better && !(look.tolerant && doubted)));
   if (!fits || known) {
     if (doubted)
