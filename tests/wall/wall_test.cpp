@@ -1,4 +1,5 @@
 // A wall of real processes: how its frames agree, and what it does when some of them die.
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 
