@@ -13,7 +13,6 @@
 #include "app/common.h"
 #include "app/stop_signals.h"
 #include "core/error.h"
-#include "tracker/calibration/layout.h"
 #include "tracker/camera_model.h"
 #include "tracker/recording_devices.h"
 
@@ -163,16 +162,6 @@ void write(const CalibrateOptions& options, const Calibrating& run,
 void write(const CalibrateOptions& options, const Calibrating& run, const HeadCalibration& head) {
   if (may_write(options, run))
     fmt::print(stderr, "Written to {}\n", write_calibration(run.wall_file, head));
-}
-
-std::string layout_remark(const HeadConfig& head) {
-  if (head.leds_in_head.size() == 1) return "";
-  const LayoutAmbiguity ambiguity = layout_ambiguity(head.leds_in_head);
-  if (ambiguity.rigid_mm >= kAmbiguous_mm) return "";
-  return fmt::format(
-      "warning: a wrong labelling of the head's {} LEDs fits to {:.1f} mm; only that heads are "
-      "upright tells them apart. Move one LED by a few centimetres.\n",
-      head.leds_in_head.size(), ambiguity.rigid_mm);
 }
 
 double coverage_so_far(const Capture& capture, std::size_t camera, const Site& site) {

@@ -63,9 +63,6 @@ void write(const CalibrateOptions& options, const Calibrating& run,
            const std::vector<CameraCalibration>& cameras);
 void write(const CalibrateOptions& options, const Calibrating& run, const HeadCalibration& head);
 
-/// A line that warns of LEDs that can be mistaken for each other; "" where they cannot.
-std::string layout_remark(const HeadConfig& head);
-
 /// Share of the picture that a camera's dots have covered so far.
 double coverage_so_far(const Capture& capture, std::size_t camera, const Site& site);
 

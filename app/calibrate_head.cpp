@@ -8,6 +8,7 @@
 #include "app/calibrate.h"
 #include "app/cameras.h"
 #include "app/common.h"
+#include "app/site_remarks.h"
 #include "core/error.h"
 #include "tracker/calibration/head.h"
 
@@ -86,7 +87,8 @@ void print(const HeadResult& result, const HeadConfig* truth, bool json) {
     fmt::print("the truth: LEDs at most {:.1f} mm off, eye {:.1f} mm\n", worst_mm,
                1e3 * (truth->eye_in_head - eye).norm());
   }
-  std::fputs(layout_remark(head).c_str(), stdout);
+  if (const std::string remark = layout_remark(head); !remark.empty())
+    fmt::print("warning: {}\n", remark);
 }
 
 /// Throws Error for an eye where no head has one: wall files take none that is over a metre away.

@@ -144,6 +144,9 @@ int calibrate_wall(const WallCommand& command) {
   if (targets.size() < 3)
     throw Error({fmt::format("two cameras see {} tile corners together", targets.size()), "wall",
                  "turn the cameras so that views of two overlap on the wall"});
+  if (targets.size() < static_cast<std::size_t>(command.targets))
+    fmt::print(stderr, "Two cameras see {} tile corners together, not {}.\n", targets.size(),
+               command.targets);
   fmt::print(stderr, "Hold the only LED still for two seconds at each, in this order:\n");
   for (const WallTarget& target : targets) fmt::print(stderr, "  {}\n", target.name);
   Touching touching(site, targets, choose_show(command, site.wall));

@@ -7,14 +7,12 @@
 #include <fstream>
 #include <memory>
 
-#include "app/calibrate.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/site_json.h"
+#include "app/site_remarks.h"
 #include "core/error.h"
-#include "tracker/calibration/layout.h"
 #include "tracker/camera_model.h"
-#include "tracker/tracker.h"
 
 namespace vindu::app {
 namespace {
@@ -41,56 +39,12 @@ std::string shown(const std::optional<CalibrationNote>& note) {
   return text;
 }
 
-/// Of the LEDs that are needed, by [tracking] of the wall file and by how many cameras there are:
-/// one knows no distance of its own, three LEDs do.
-std::size_t least_leds(const Site& site) {
-  if (site.tracking.mode == "six-dof" || site.cameras.size() == 1) return 3;
-  return site.tracking.mode == "position" ? 1 : 2;
-}
-
-/// Why nothing can be tracked, or not this head; "" where it can.
-std::string tracking_remark(const Site& site, const HeadConfig& head) {
-  const std::string& mode = site.tracking.mode;
-  const bool alone = site.cameras.size() == 1;
-  if (mode == "position" && alone)
-    return "warning: mode = \"position\" of [tracking] needs two cameras, and there is one: "
-           "nothing "
-           "will be found. Write mode = \"auto\", or add a camera.\n";
-  const std::size_t least = least_leds(site), leds = head.leds_in_head.size();
-  if (leds < least)
-    return fmt::format(
-        "warning: mode = \"{}\" of [tracking] needs {} LEDs or more{}, and leds_m of {} has {}: "
-        "nothing will be found. {}add LEDs.\n",
-        mode, least, alone ? " with one camera" : "", head.name, leds,
-        alone ? "Add a camera, or " : "Write mode = \"position\", or ");
-  try {
-    if (!site.cameras.empty() && &head == &site.heads.front()) {
-      const Tracker starts(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
-    }
-  } catch (const Error& error) {
-    return fmt::format("warning: tracking will not start: {}\n", error.what());
-  }
-  return "";
-}
-
-void print_heads(const Site& site) {
-  for (const HeadConfig& head : site.heads) {
+void print_heads(const std::vector<HeadConfig>& heads) {
+  for (const HeadConfig& head : heads) {
     const std::size_t leds = head.leds_in_head.size();
     fmt::print("  head {:<12} {} {}, eye at {} in head{}\n", head.name, leds,
                leds == 1 ? "LED" : "LEDs", shown(head.eye_in_head), shown(head.calibration));
-    for (const std::string& remark : {layout_remark(head), tracking_remark(site, head)})
-      if (!remark.empty()) fmt::print("  {}", remark);
   }
-  for (std::size_t a = 0; a < site.heads.size(); ++a)
-    for (std::size_t b = a + 1; b < site.heads.size(); ++b) {
-      const HeadConfig &one = site.heads[a], &other = site.heads[b];
-      const double apart_mm = layouts_apart_mm(one.leds_in_head, other.leds_in_head);
-      if (apart_mm < kAmbiguous_mm)
-        fmt::print(
-            "  warning: the LEDs of {} fit those of {} to {:.1f} mm: who is who cannot be "
-            "told. Move one LED by a few centimetres.\n",
-            one.name, other.name, apart_mm);
-    }
 }
 
 void print_wall(const Site& site) {
@@ -111,7 +65,8 @@ void print_wall(const Site& site) {
     fmt::print("  camera {:<10} {:<9} at {} in room, focal length {:.0f} px{}\n", camera.name,
                name_of(camera.source), shown(camera.room_from_camera.translation),
                camera.intrinsics.fx_px, shown(camera.calibration));
-  print_heads(site);
+  print_heads(site.heads);
+  for (const std::string& remark : remarks_on(site)) fmt::print("  warning: {}\n", remark);
 }
 
 /// Drawing units a metre; programs that set small letters badly get large ones.
@@ -228,7 +183,7 @@ void draw_plan(Drawing& drawing, const Site& site) {
 int check(const CheckOptions& options) {
   const Site site = load_site(options.wall_file);
   if (options.json)
-    std::fputs(json_of(site).c_str(), stdout);
+    std::fputs(json_of(site, remarks_on(site)).c_str(), stdout);
   else
     print_wall(site);
   if (options.drawing.empty()) return 0;

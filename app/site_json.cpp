@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <vector>
-
 #include "app/common.h"
 
 namespace vindu::app {
@@ -47,16 +45,16 @@ std::string head_json(const HeadConfig& head) {
 
 }  // namespace
 
-std::string json_of(const Site& site) {
+std::string json_of(const Site& site, const std::vector<std::string>& warnings) {
   const WallGrid& grid = site.wall.grid;
   return fmt::format(
       R"({{"columns": {}, "rows": {}, "width_m": {}, "height_m": {}, "rate_hz": {}, )"
       R"("centre_height_m": {}, "default_eye_in_wall_m": {},)"
-      "\n\"tiles\": {},\n\"cameras\": {},\n\"heads\": {}}}\n",
+      "\n\"tiles\": {},\n\"cameras\": {},\n\"heads\": {},\n\"warnings\": {}}}\n",
       grid.columns, grid.rows, grid.width_m, grid.height_m, site.rate_hz,
       site.wall.room_from_wall.translation.y(), json_vec(site.viewer.default_eye_in_wall),
       array_of(site.wall.tiles, tile_json), array_of(site.cameras, camera_json),
-      array_of(site.heads, head_json));
+      array_of(site.heads, head_json), array_of(warnings, json_text));
 }
 
 }  // namespace vindu::app

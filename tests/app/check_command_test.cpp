@@ -30,7 +30,8 @@ TEST_F(CheckCommand, SaysTheSameAsJson) {
   EXPECT_THAT(
       result.out,
       AllOf(
-          ::testing::StartsWith("{\"columns\": 7, "), ::testing::EndsWith("]}\n"),
+          ::testing::StartsWith("{\"columns\": 7, "),
+          HasSubstr("\"warnings\": [\"a wrong labelling of the 3 LEDs of head fits"),
           HasSubstr(R"({"name": "tile-6-3", "host": "tile-6-3", "monitor": "", "width_px": 1024)"),
           HasSubstr(R"("default_eye_in_wall_m": [0,0.1,2])"),
           HasSubstr(R"({"name": "left", "source": "emulated", "position_in_room_m": )")));
@@ -112,9 +113,11 @@ TEST_F(CheckCommand, WarnsOfAHelmetThatTheTrackingCannotUse) {
     std::string text = wall;
     const std::size_t begin = text.find("leds_m = ");
     text.replace(begin, text.find('\n', begin) - begin, "leds_m = " + leds);
-    const ProcessResult result =
-        vindu({"check", write("wall.toml", text + "[tracking]\n" + tracking)});
+    const std::string file = write("wall.toml", text + "[tracking]\n" + tracking);
+    const ProcessResult result = vindu({"check", file}), json = vindu({"check", file, "--json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out.find("warning: ") == std::string::npos,
+              json.out.find("\"warnings\": []") != std::string::npos);
     return result.out;
   };
   const std::string one = "[[0, 0, 0]]", two = "[[0, 0, 0], [0.1, 0, 0]]";
