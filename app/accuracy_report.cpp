@@ -41,7 +41,7 @@ std::string moving_line(const MovingRow& row) {
   std::string line = fmt::format(
       "{:<65}{:>6.1f}{:>7.1f}{:>6.2f}{:>7} |{:>6g}{:>6.1f}{:>6.2f} |", name_of(row),
       1e3 * ours.eye_rms_m, 1e3 * ours.eye_p95_m, degrees(ours.turn_rms_rad), percent(ours.found),
-      row.study.best_noise.move_m2_s5, 1e3 * fixed.eye_rms_m, row.over_fixed());
+      row.study.best_noise_m2_s5, 1e3 * fixed.eye_rms_m, row.over_fixed());
   if (!row.thesis) return line + "\n";
   const TrialErrors &thesis = row.thesis->all, &six_dof = row.thesis->six_dof;
   return line + fmt::format("{:>6.1f}{:>6.2f}{:>10}{:>7.1f}{:>6}\n", 1e3 * thesis.eye_rms_m,
@@ -125,7 +125,7 @@ std::string json_of(const MovingRow& row) {
       options.head.leds_in_head.size());
   text += fmt::format(
       R"("ours":{},"best_fixed":{},"best_fixed_noise_m2_s5":{},"ours_over_best_fixed":{})",
-      json_of(row.study.joint), json_of(row.study.best_fixed), row.study.best_noise.move_m2_s5,
+      json_of(row.study.joint), json_of(row.study.best_fixed), row.study.best_noise_m2_s5,
       row.over_fixed());
   if (row.thesis)
     text += fmt::format(R"(,"thesis":{},"thesis_levels":{},"thesis_six_dof":{})",

@@ -13,10 +13,18 @@ namespace {
 
 constexpr int kPlaces = 8;  // of a still head
 
-// Factors of five, from what the schedule has at rest to more than it has at 10 m/s; the turning
-// part in its usual proportion.
-const std::vector<MotionNoise> kFixedNoises = {{0.02, 0.08}, {0.1, 0.4}, {0.5, 2},
-                                               {2.5, 10},    {12, 48},   {60, 240}};
+// Densities of jerk: factors of five, from what a head at rest is allowed to more than what one at
+// 1.5 m/s is.
+constexpr double kFixedNoises_m2_s5[] = {0.02, 0.1, 0.5, 2.5, 12, 60};
+
+/// The turning part is in proportion: about the best for each motion.
+std::vector<MotionNoise> fixed_noises() {
+  constexpr double kTurn_rad2_m2 = 4;
+  std::vector<MotionNoise> noises;
+  for (const double density : kFixedNoises_m2_s5)
+    noises.push_back({density * Mat3::Identity(), kTurn_rad2_m2 * density * Mat3::Identity()});
+  return noises;
+}
 
 LinkOptions link_options(Link link) {
   if (link == Link::good) return {};
@@ -54,7 +62,7 @@ TrialOptions trial_of(const MovingStudyOptions& options, std::uint64_t seed) {
   trial.wiimote.link = link_options(options.link);
   trial.length = from_seconds(options.length_s);
   trial.photon_lag = options.photon_lag;
-  trial.fixed_noises = kFixedNoises;
+  trial.fixed_noises = fixed_noises();
   if (options.moves != HeadMoves::still) return trial;
   trial.length /= kPlaces;
   trial.warm_up = std::chrono::seconds(2);
@@ -85,7 +93,7 @@ MovingStudy study_moving(const MovingStudyOptions& options) {
   const bool by_thesis = options.head.leds_in_head.size() == 3 && options.row.cameras == 2;
   std::vector<TrackingConfig> methods = {{.method = "joint"}};
   if (by_thesis) methods.push_back({.method = "thesis"});
-  std::vector<std::vector<TrialFrame>> frames(methods.size() + kFixedNoises.size());
+  std::vector<std::vector<TrialFrame>> frames(methods.size() + std::size(kFixedNoises_m2_s5));
   const int trials = options.moves == HeadMoves::still ? kPlaces : 1;
   for (int i = 0; i < trials; ++i) {
     const auto run =
@@ -96,11 +104,11 @@ MovingStudy study_moving(const MovingStudyOptions& options) {
   MovingStudy study;
   study.joint = errors_of(frames[0]);
   if (by_thesis) study.thesis = thesis_errors(frames[1]);
-  for (std::size_t i = 0; i < kFixedNoises.size(); ++i) {
+  for (std::size_t i = 0; i < std::size(kFixedNoises_m2_s5); ++i) {
     const TrialErrors errors = errors_of(frames[methods.size() + i]);
     if (errors.found > 0 && (i == 0 || errors.eye_rms_m < study.best_fixed.eye_rms_m)) {
       study.best_fixed = errors;
-      study.best_noise = kFixedNoises[i];
+      study.best_noise_m2_s5 = kFixedNoises_m2_s5[i];
     }
   }
   return study;

@@ -42,7 +42,7 @@ struct ThesisErrors {
 struct MovingStudy {
   TrialErrors joint;
   TrialErrors best_fixed;  ///< of filters that know one motion: the one that this motion suits best
-  MotionNoise best_noise;
+  double best_noise_m2_s5 = 0;  ///< its density
   std::optional<ThesisErrors> thesis;
 };
 

@@ -32,10 +32,13 @@ bool seen_by_two(const HeadTrack& head, Time now, const AssociationOptions& opti
                                [&](Time seen) { return now - seen < options.coasts_after; }) >= 2;
 }
 
+std::ptrdiff_t leds_seen(const HeadTrack& head, Time now, const AssociationOptions& options) {
+  return std::ranges::count_if(head.led_seen,
+                               [&](Time seen) { return now - seen < options.coasts_after; });
+}
+
 bool well_seen(const HeadTrack& head, Time now, const AssociationOptions& options) {
-  const auto leds = std::ranges::count_if(
-      head.led_seen, [&](Time seen) { return now - seen < options.coasts_after; });
-  return leds >= 3 && seen_by_two(head, now, options);
+  return leds_seen(head, now, options) >= 3 && seen_by_two(head, now, options);
 }
 
 /// Through the two LEDs that alone of more were seen lately, in room: how the head turns about it
@@ -53,22 +56,34 @@ std::optional<Vec3> unseen_axis(const HeadTrack& head, std::span<const Vec3> led
   return head.state->room_from_head.rotation * (seen[1] - seen[0]).normalized();
 }
 
+/// How hard the head may be accelerating, as far as what is seen of it tells.
+MotionNoise motion_noise_of(const HeadTrack& head, std::size_t leds, Time now,
+                            const AssociationOptions& options) {
+  const auto enough = static_cast<std::ptrdiff_t>(std::min<std::size_t>(leds, 3));
+  MotionNoise noise = options.fixed_noise ? *options.fixed_noise : noise_of_motion(*head.state);
+  if (!seen_by_two(head, now, options)) {
+    noise.move_m2_s5 = options.alone_m2_s5 * Mat3::Identity();
+  } else if (!options.fixed_noise && leds_seen(head, now, options) >= enough) {
+    const MotionNoise change = noise_of_change(*head.state);
+    noise.move_m2_s5 += change.move_m2_s5;
+    noise.turn_rad2_s5 += change.turn_rad2_s5;
+  }
+  if (!options.fixed_noise && well_seen(head, now, options)) {
+    const double beyond =
+        std::max(0.0, std::min(head.surprise, options.most_surprise) - options.usual_surprise);
+    noise.move_m2_s5 += beyond * beyond * options.move_by_surprise_m2_s5 * Mat3::Identity();
+    noise.turn_rad2_s5 += beyond * beyond * options.turn_by_surprise_rad2_s5 * Mat3::Identity();
+  }
+  if (!options.turns) noise.turn_rad2_s5.setZero();
+  return noise;
+}
+
 void move_on(HeadTrack& head, std::span<const Vec3> leds_in_head, Time to,
              const AssociationOptions& options) {
   if (!head.state) return;
-  MotionNoise noise = options.fixed_noise.value_or(noise_of_motion(*head.state));
-  if (!seen_by_two(head, to, options))
-    noise.move_m2_s5 = std::max(noise.move_m2_s5, options.least_alone_m2_s5);
-  if (const double beyond = std::min(head.surprise, options.most_surprise) - options.usual_surprise;
-      beyond > 0 && !options.fixed_noise && well_seen(head, to, options)) {
-    noise.move_m2_s5 += beyond * beyond * options.by_surprise.move_m2_s5;
-    noise.turn_rad2_s5 += beyond * beyond * options.by_surprise.turn_rad2_s5;
-  }
-  if (!options.turns) noise.turn_rad2_s5 = 0;
-  const auto lately = [&](Time seen) { return to - seen < options.coasts_after; };
+  const MotionNoise noise = motion_noise_of(head, leds_in_head.size(), to, options);
   const bool moves = seen_by_two(head, to, options);
-  const auto leds = static_cast<std::size_t>(std::ranges::count_if(head.led_seen, lately));
-  const bool turns = leds >= 2;
+  const bool turns = leds_seen(head, to, options) >= 2;
   const Duration passed = to - head.state->time;
   const auto axis = unseen_axis(head, leds_in_head, to, options);
   if (axis && options.turns && passed > Duration::zero())
@@ -174,21 +189,16 @@ void note(HeadTrack& head, const TimedDots& seen, int led) {
     *time = std::max(*time, seen.captured);
 }
 
-/// Dots that lie too far off to correct by count as well: they say most of a head that sets off.
-void be_surprised(const CostMatrix& costs, const std::vector<Column>& columns,
-                  std::span<HeadTrack> heads, const AssociationOptions& options) {
+void be_surprised(HeadTrack& head, double square_sigmas) {
   constexpr double kShare = 0.12;  // of one dot in the running mean
-  for (const auto& [i, c] : pairs_of(costs, 2 * options.gate)) {
-    HeadTrack& head = heads[static_cast<std::size_t>(columns[c].head)];
-    const double square = std::min(cost_of(costs, i, c), options.gate);
-    head.surprise += kShare * (square - 2 - head.surprise);
-  }
+  head.surprise += kShare * (square_sigmas - 2 - head.surprise);
 }
 
 /// Each correction sharpens what is expected of the next dot, which must still fit.
 Association correct_by(const TimedDots& seen, const CameraModel& camera,
                        std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
                        const AssociationOptions& options) {
+  constexpr double kNear_px = 6;  // no other LED's dot, as a rule
   const std::vector<Column> columns =
       columns_of(seen.captured, camera, leds_of_heads, heads, options);
   const auto in_sigmas = [&](const Column& column, const Vec2& residual_px) {
@@ -196,8 +206,17 @@ Association correct_by(const TimedDots& seen, const CameraModel& camera,
     return distance2(column.expected.covariance_px2 + noise_of(seen, column.expected), residual_px);
   };
   const CostMatrix costs = costs_of(seen, columns, in_sigmas);
-  be_surprised(costs, columns, heads, options);
   Association result;
+  // Dots that lie too far off to correct by count here as well: they say most of a head that sets
+  // off, and of a camera that stands aside.
+  for (const auto& [i, c] : pairs_of(costs, 2 * options.gate)) {
+    const double square = cost_of(costs, i, c);
+    be_surprised(heads[static_cast<std::size_t>(columns[c].head)], std::min(square, options.gate));
+    const Vec2& expected_px = columns[c].expected.raw_px;
+    const Vec2 residual_px = raw_px_of(seen.dots[i]) - expected_px;
+    if (square >= options.gate && residual_px.norm() < kNear_px)
+      result.aside.push_back({expected_px, residual_px});
+  }
   const std::vector<Pair> pairs = pairs_of(costs, options.gate);
   for (const auto& [i, c] : pairs) {
     result.disputed[i] = disputed(costs, pairs, {i, c}, options);
@@ -239,8 +258,8 @@ bool displaced(const TimedDots& seen, const std::vector<Column>& columns) {
       pairs, [&](const auto& pair) { return (shift_of(pair) - mean).norm() < kShape_px; });
 }
 
-/// A head of which this camera accepts nothing, though its dots have the head's shape, is known
-/// less well than it seemed.
+/// Heads of which this camera accepts nothing, though its dots have their shape, are known less
+/// well than it seemed. False: there are none.
 bool widen_displaced(const TimedDots& seen, const CameraModel& camera,
                      std::span<const std::vector<Vec3>> leds_of_heads, std::span<HeadTrack> heads,
                      const std::vector<AcceptedDot>& accepted, const AssociationOptions& options) {
@@ -264,10 +283,12 @@ Association associate(const TimedDots& seen, const CameraModel& camera,
                       const AssociationOptions& options) {
   for (std::size_t head = 0; head < heads.size(); ++head)
     move_on(heads[head], leds_of_heads[head], seen.captured, options);
+  std::vector<HeadTrack> doubted(heads.begin(), heads.end());
   Association result = correct_by(seen, camera, leds_of_heads, heads, options);
   if (!options.may_widen || seen.dots.size() < 2 || std::ranges::count(result.disputed, true) > 0 ||
-      !widen_displaced(seen, camera, leds_of_heads, heads, result.accepted, options))
+      !widen_displaced(seen, camera, leds_of_heads, doubted, result.accepted, options))
     return result;
+  std::ranges::move(doubted, heads.begin());
   result = correct_by(seen, camera, leds_of_heads, heads, options);
   result.widened = true;
   return result;

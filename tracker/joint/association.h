@@ -52,13 +52,14 @@ struct AssociationOptions {
   /// Factor on the sigma of dots while one camera alone sees a head, or two LEDs alone are seen:
   /// what rounding and the LEDs' places leave wrong does not average out, and more hangs on it.
   double weak = 3;
-  /// A head may walk along the ray of the only camera that sees it.
-  double least_alone_m2_s5 = 3;
+  /// In place of the noise of motion: a head may walk along the ray of the only camera that sees
+  /// it.
+  double alone_m2_s5 = 3;
   /// A head that surprises though it is well seen is accelerating: what noise is added for each
   /// unit of surprise beyond the usual, squared.
-  double usual_surprise = 1;
+  double usual_surprise = 1.5;
   double most_surprise = 3.5;
-  MotionNoise by_surprise = {20, 80};
+  double move_by_surprise_m2_s5 = 6, turn_by_surprise_rad2_s5 = 24;
   double lost_at_rad = radians(100);
   std::optional<MotionNoise> fixed_noise = {};  ///< in place of that which goes with the motion
   bool turns = true;                            ///< false: the rotation is given, not estimated
@@ -75,8 +76,15 @@ struct AcceptedDot {
   double square_sigmas = 0;         ///< of the residual; about 2 when all is well
 };
 
+/// A dot that may be an LED's, and where all cameras together expect that; raw pixels.
+struct MisfitDot {
+  Vec2 expected_px;
+  Vec2 residual_px;  ///< from there
+};
+
 struct Association {
-  std::vector<AcceptedDot> accepted;
+  std::vector<AcceptedDot> accepted = {};
+  std::vector<MisfitDot> aside = {};      ///< a little too far off to be accepted
   std::array<bool, kMaxDots> disputed{};  ///< dots that may as well be another LED's: none's
   bool widened = false;                   ///< nothing fitted until the head was doubted
 };

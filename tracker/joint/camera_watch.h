@@ -9,12 +9,6 @@
 
 namespace vindu {
 
-/// A dot of a report, and where all cameras together expect it; raw pixels.
-struct MisfitDot {
-  Vec2 expected_px;
-  Vec2 residual_px;  ///< from there
-};
-
 /// Of one camera. Bound to one thread.
 class CameraWatch {
  public:

@@ -1,5 +1,6 @@
 #include "tracker/joint/head_filter.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
@@ -11,7 +12,8 @@ namespace vindu {
 namespace {
 
 constexpr int kPosition = 0, kVelocity = 3, kRotation = 9, kTurning = 12;
-constexpr double kManoeuvre_s = 0.5;  // time constant of people's accelerations
+constexpr double kManoeuvre_s = 0.3;  // time constant of people's accelerations
+constexpr double kPull_s = 0.05;      // what dots pulled by is forgotten with
 
 /// What a velocity and an acceleration have come to after a while, for each unit of them.
 struct Course {
@@ -23,6 +25,13 @@ struct Course {
 
   Vec3 way(const Motion& motion) const {
     return way_by_velocity_s * motion.velocity + way_by_acceleration_s2 * motion.acceleration;
+  }
+  /// The same rates, and a share of the way.
+  Course shortened(double share) const {
+    Course course = *this;
+    course.way_by_velocity_s *= share;
+    course.way_by_acceleration_s2 *= share;
+    return course;
   }
   Motion after(const Motion& motion) const {
     return {velocity_left * motion.velocity + velocity_by_acceleration_s * motion.acceleration,
@@ -53,14 +62,14 @@ void carry(Rows&& rows, const Course& course) {
 }
 
 // Of white jerk over dt (Bar-Shalom, Li & Kirubarajan, "Estimation with applications", 6.2.3).
-void add_noise(Mat18& covariance, int at, double density, double dt_s) {
+void add_noise(Mat18& covariance, int at, const Mat3& density, double dt_s) {
   const double dt2 = dt_s * dt_s, dt3 = dt2 * dt_s;
   const double noise[3][3] = {{dt3 * dt2 / 20, dt2 * dt2 / 8, dt3 / 6},
                               {dt2 * dt2 / 8, dt3 / 3, dt2 / 2},
                               {dt3 / 6, dt2 / 2, dt_s}};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      covariance.block<3, 3>(at + 3 * i, at + 3 * j).diagonal().array() += density * noise[i][j];
+      covariance.block<3, 3>(at + 3 * i, at + 3 * j) += noise[i][j] * density;
 }
 
 /// Zero up to `from`, one from `to` on, without a corner.
@@ -73,45 +82,98 @@ Rigid3 moved(const Rigid3& pose, const Vec3& way, const Vec3& turn) {
   return {(rotation_of(turn) * pose.rotation).normalized(), pose.translation + way};
 }
 
+using Vec18 = Eigen::Matrix<double, 18, 1>;
+
+/// What a measurement changed of the state, and that change's variance.
+struct Correction {
+  Vec18 step;
+  Vec18 variance;
+};
+
 /// By N numbers that differ by `surprise` from what the state says. `spread`: its covariance with
-/// them; `expected`: theirs, with their noise. Joseph's form is not needed: the covariance is made
-/// symmetric, and nothing is ever measured exactly.
+/// them; `expected`: theirs, with their noise. With a root of that, what is taken off the
+/// covariance is a square, and symmetric. Joseph's form is not needed: nothing is ever measured
+/// exactly.
 template <int N>
-void take_in(HeadState& state, const Eigen::Matrix<double, 18, N>& spread,
-             const Eigen::Matrix<double, N, N>& expected,
-             const Eigen::Matrix<double, N, 1>& surprise) {
-  const Eigen::Matrix<double, 18, N> gain = spread * expected.inverse();
-  const Eigen::Matrix<double, 18, 1> step = gain * surprise;
-  state.covariance.noalias() -= gain * spread.transpose();
-  state.covariance = (0.5 * (state.covariance + state.covariance.transpose())).eval();
+Correction take_in(HeadState& state, const Eigen::Matrix<double, 18, N>& spread,
+                   const Eigen::Matrix<double, N, N>& expected,
+                   const Eigen::Matrix<double, N, 1>& surprise) {
+  const Eigen::LLT<Eigen::Matrix<double, N, N>> root(expected);
+  const Eigen::Matrix<double, 18, N> whitened =
+      root.matrixL().solve(spread.transpose()).transpose();
+  const Vec18 step = whitened.lazyProduct(root.matrixL().solve(surprise).eval());
+  state.covariance.noalias() -= whitened.lazyProduct(whitened.transpose());
   state.room_from_head = moved(state.room_from_head, step.template segment<3>(kPosition),
                                step.template segment<3>(kRotation));
   state.move.velocity += step.template segment<3>(kVelocity);
   state.move.acceleration += step.template segment<3>(kVelocity + 3);
   state.turn.velocity += step.template segment<3>(kTurning);
   state.turn.acceleration += step.template segment<3>(kTurning + 3);
+  return {step, whitened.rowwise().squaredNorm()};
+}
+
+void pull_by(Pull& pull, const Correction& correction, int at) {
+  pull.sum += correction.step.segment<3>(at);
+  pull.variance += correction.variance.segment<3>(at);
+}
+
+void fade(Pull& pull, double left) {
+  pull.sum *= left;
+  pull.variance *= left * left;
+}
+
+/// Nine parts in ten along the vector: who moves one way does not accelerate in all others alike.
+Mat3 mostly_along(const Vec3& vector) {
+  constexpr double kAcross = 0.1;
+  return kAcross * vector.squaredNorm() * Mat3::Identity() +
+         (1 - kAcross) * vector * vector.transpose();
+}
+
+/// A rate or an acceleration, less a part of its noise: all of it would keep a start unnoticed for
+/// longer.
+Vec3 beyond_noise(const HeadState& state, const Vec3& vector, int at) {
+  constexpr double kNoise = 0.25;  // of its variance
+  const double square = vector.squaredNorm();
+  const double beyond = square - kNoise * state.covariance.diagonal().segment<3>(at).sum();
+  return beyond > 0 ? Vec3(std::sqrt(beyond / square) * vector) : Vec3(Vec3::Zero());
+}
+
+/// In sigmas, beyond what is usual: squares of 3.5, as the mean of three axes.
+Vec3 unforeseen(const Pull& pull) {
+  constexpr double kUsual = 3.5;
+  if (pull.variance.minCoeff() <= 0) return Vec3::Zero();
+  const Vec3 sigmas = pull.sum.cwiseQuotient(pull.variance.cwiseSqrt());
+  const double square = sigmas.squaredNorm() / 3;
+  return square > kUsual ? Vec3(std::sqrt((1 - kUsual / square) / 3) * sigmas) : Vec3(Vec3::Zero());
 }
 
 }  // namespace
 
-// Found by trial on simulated heads: at rest, and swaying with peaks of 0.57 m/s and 1.13 m/s. What
-// may be noise of the velocity is no motion.
+// Found by trial on simulated heads that rest, sway, walk, start and stop, at up to 1.13 m/s: the
+// figures may be halved or doubled for a few per cent. A sine's jerk goes with its speed, and so
+// does its square, which a density is, with the speed's.
 MotionNoise noise_of_motion(const HeadState& state) {
-  const auto beyond_noise = [&](const Vec3& rate, int at) {
-    const double sigma2 = state.covariance.diagonal().segment<3>(at).sum();
-    return std::sqrt(std::max(0.0, rate.squaredNorm() - 2 * sigma2));
-  };
-  const double speed = beyond_noise(state.move.velocity, kVelocity) / 0.5;
-  const double turning = beyond_noise(state.turn.velocity, kTurning) / 1.3;
-  return {0.02 + 2 * speed, 0.08 + 8 * turning};
+  constexpr double kRest_m2_s5 = 0.02, kBySpeed_per_s3 = 20;  // and the same in radians
+  return {kRest_m2_s5 * Mat3::Identity() +
+              kBySpeed_per_s3 * mostly_along(beyond_noise(state, state.move.velocity, kVelocity)),
+          kRest_m2_s5 * Mat3::Identity() +
+              kBySpeed_per_s3 * mostly_along(beyond_noise(state, state.turn.velocity, kTurning))};
 }
 
-void propagate(HeadState& state, Time to, const MotionNoise& noise, const MotionOptions& options) {
-  assert(to >= state.time);
-  const double dt_s = seconds(to - state.time);
-  if (dt_s == 0) return;
-  const Course course = course_of(dt_s, options.move_damping);
-  const Course turning = course_of(dt_s, options.turn_damping);
+MotionNoise noise_of_change(const HeadState& state) {
+  constexpr double kByAcceleration_per_s = 6, kByPull_m2_s5 = 6;  // and the same in radians
+  const auto by = [&](const Motion& motion, const Pull& pull, int at) -> Mat3 {
+    return kByAcceleration_per_s * mostly_along(beyond_noise(state, motion.acceleration, at)) +
+           kByPull_m2_s5 * mostly_along(unforeseen(pull));
+  };
+  return {by(state.move, state.move_pull, kVelocity + 3),
+          by(state.turn, state.turn_pull, kTurning + 3)};
+}
+
+namespace {
+
+/// Place, rates and covariance, all but the noise.
+void follow(HeadState& state, const Course& course, const Course& turning) {
   const Vec3 turn = turning.way(state.turn);
   const Mat3 turned = rotation_of(turn).toRotationMatrix();
   Mat18& covariance = state.covariance;
@@ -121,11 +183,22 @@ void propagate(HeadState& state, Time to, const MotionNoise& noise, const Motion
     carry(covariance.bottomRows<9>(), turning);
     covariance.transposeInPlace();
   }
-  add_noise(covariance, kPosition, noise.move_m2_s5, dt_s);
-  add_noise(covariance, kRotation, noise.turn_rad2_s5, dt_s);
+  covariance = (0.5 * (covariance + covariance.transpose())).eval();
   state.room_from_head = moved(state.room_from_head, course.way(state.move), turn);
   state.move = course.after(state.move);
   state.turn = turning.after(state.turn);
+}
+
+}  // namespace
+
+void propagate(HeadState& state, Time to, const MotionNoise& noise, const MotionOptions& options) {
+  assert(to >= state.time);
+  const double dt_s = seconds(to - state.time);
+  if (dt_s == 0) return;
+  follow(state, course_of(dt_s, options.move_damping), course_of(dt_s, options.turn_damping));
+  add_noise(state.covariance, kPosition, noise.move_m2_s5, dt_s);
+  add_noise(state.covariance, kRotation, noise.turn_rad2_s5, dt_s);
+  for (Pull* pull : {&state.move_pull, &state.turn_pull}) fade(*pull, std::exp(-dt_s / kPull_s));
   state.time = to;
 }
 
@@ -154,7 +227,10 @@ void correct(HeadState& state, const ExpectedDot& expected, const Vec2& raw_px,
   const Eigen::Matrix<double, 18, 2> spread =
       state.covariance.middleCols<3>(kPosition) * by_position.transpose() +
       state.covariance.middleCols<3>(kRotation) * by_rotation.transpose();
-  take_in<2>(state, spread, expected.covariance_px2 + noise_px2, raw_px - expected.raw_px);
+  const Correction correction =
+      take_in<2>(state, spread, expected.covariance_px2 + noise_px2, raw_px - expected.raw_px);
+  pull_by(state.move_pull, correction, kVelocity);
+  pull_by(state.turn_pull, correction, kTurning);
 }
 
 // The prior as a measurement of the rotation alone. One that is independent of the last comes each
@@ -229,16 +305,18 @@ PoseSample sample_of(const HeadState& state) {
 }
 
 PoseSample predicted(const HeadState& state, Duration ahead, const AheadOptions& options) {
-  const Course course =
-      course_of(seconds(std::clamp(ahead, Duration::zero(), options.limit)), Duration::zero());
-  const double moving =
-      smooth_step(0.5 * options.still_m_s, 2 * options.still_m_s, state.move.velocity.norm());
-  const double turning =
-      smooth_step(0.5 * options.still_rad_s, 2 * options.still_rad_s, state.turn.velocity.norm());
-  PoseSample sample = sample_of(state);
-  sample.room_from_head = moved(state.room_from_head, moving * course.way(state.move),
-                                turning * course.way(state.turn));
-  return sample;
+  const double ahead_s = seconds(std::clamp(ahead, Duration::zero(), options.limit));
+  const auto faded = [&](const Vec3& rate, double still) {
+    return course_of(ahead_s, Duration::zero())
+        .shortened(smooth_step(0.5 * still, 2 * still, rate.norm()));
+  };
+  HeadState later = state;
+  follow(later, faded(state.move.velocity, options.still_m_s),
+         faded(state.turn.velocity, options.still_rad_s));
+  const MotionNoise noise = noise_of_motion(state);
+  add_noise(later.covariance, kPosition, noise.move_m2_s5, ahead_s);
+  add_noise(later.covariance, kRotation, noise.turn_rad2_s5, ahead_s);
+  return sample_of(later);
 }
 
 }  // namespace vindu

@@ -18,6 +18,14 @@ struct Motion {
   Vec3 acceleration = Vec3::Zero();  ///< a second squared
 };
 
+/// Which way dots have pulled a rate lately: the sum of their corrections of it, which fades, and
+/// what variance that has while the motion is as expected. Corrections differ in sign then
+/// (innovations are white: Kailath 1968); those of a motion that goes on unforeseen add up.
+struct Pull {
+  Vec3 sum = Vec3::Zero();
+  Vec3 variance = Vec3::Zero();
+};
+
 /// The error is (position, velocity, acceleration, rotation vector, angular velocity, angular
 /// acceleration), all in room; metres, radians, seconds.
 struct HeadState {
@@ -25,18 +33,24 @@ struct HeadState {
   Rigid3 room_from_head;
   Motion move{};
   Motion turn{};
+  Pull move_pull{};  ///< of the velocity
+  Pull turn_pull{};  ///< of the angular velocity
   Mat18 covariance = Mat18::Zero();
 };
 
-/// White jerk, as its spectral density.
+/// White jerk, as its spectral density, in room.
 struct MotionNoise {
-  double move_m2_s5 = 2;
-  double turn_rad2_s5 = 8;
+  Mat3 move_m2_s5 = 2 * Mat3::Identity();
+  Mat3 turn_rad2_s5 = 8 * Mat3::Identity();
 };
 
 /// How hard a head that moves like this may be accelerating: little at rest, more the faster it
-/// moves. One fixed value serves either a still head or a fast one.
+/// moves, most of it that way. One fixed value serves either a still head or a fast one.
 MotionNoise noise_of_motion(const HeadState& state);
+
+/// What else there is of it where dots enough tell: more the harder the head accelerates, and the
+/// more dots pull one way.
+MotionNoise noise_of_change(const HeadState& state);
 
 struct MotionOptions {
   Duration move_damping = Duration::zero();  ///< velocity dies out with this time constant; 0: not
@@ -88,7 +102,8 @@ struct AheadOptions {
   double still_rad_s = 0.05;                       ///< 3 degrees a second
 };
 
-/// The pose `ahead` of the state's time: at most the limit, and faded when the head is still.
+/// The pose `ahead` of the state's time, and its covariance there: at most the limit, and the
+/// motion faded when the head is still.
 PoseSample predicted(const HeadState& state, Duration ahead, const AheadOptions& options = {});
 
 }  // namespace vindu

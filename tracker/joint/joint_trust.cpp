@@ -141,11 +141,11 @@ bool JointMethod::seen_by_others(const Entry& entry, std::size_t head) const {
   return others >= 2;
 }
 
-// Where others know well enough where a head is and none of the camera's dots is accepted, those
+// Where others know well enough where a head is and none of the camera's dots fits, those
 // next to its LEDs tell how far the camera looks aside.
 std::vector<MisfitDot> JointMethod::misfit_of(const Entry& entry) const {
   constexpr double kNext_px = 25;
-  std::vector<MisfitDot> dots;
+  std::vector<MisfitDot> dots = entry.association.aside;
   for (const AcceptedDot& dot : entry.association.accepted)
     dots.push_back({raw_px_of(entry.seen.dots[dot.dot]) - dot.residual_px, dot.residual_px});
   if (!dots.empty() || entry.seen.dots.size() < 2) return dots;

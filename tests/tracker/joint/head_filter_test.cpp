@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <functional>
 
 #include "tests/tracker/joint/scene.h"
 #include "tracker/joint/association.h"
@@ -115,6 +116,80 @@ TEST(HeadFilter, stays_a_covariance_through_a_thousand_dots) {
   }
 }
 
+TEST(HeadFilter, may_accelerate_the_way_it_moves_more_than_aside) {
+  HeadState state = known_at({}, Time{});
+  state.covariance *= 1e-4;
+  const double at_rest = noise_of_motion(state).move_m2_s5(0, 0);
+  EXPECT_LT((noise_of_motion(state).move_m2_s5 - at_rest * Mat3::Identity()).norm(), 1e-12);
+  const Vec3 way(0.6, 0, 0.8), aside(0, 1, 0);
+  state.move.velocity = 0.5 * way;
+  const Mat3 noise = noise_of_motion(state).move_m2_s5;
+  EXPECT_GT(way.dot(noise * way), 50 * at_rest);
+  EXPECT_NEAR((way.dot(noise * way) - at_rest) / (aside.dot(noise * aside) - at_rest), 10, 1e-6);
+  EXPECT_LT((noise_of_motion(state).turn_rad2_s5 - at_rest * Mat3::Identity()).norm(), 1e-12);
+}
+
+TEST(HeadFilter, takes_noise_of_a_rate_for_no_motion) {
+  HeadState state = known_at({}, Time{});
+  const double sigma_m_s = std::sqrt(state.covariance.diagonal().segment<3>(3).sum());
+  state.move.velocity = {0.4 * sigma_m_s, 0, 0};
+  EXPECT_EQ(noise_of_motion(state).move_m2_s5, noise_of_motion(known_at({}, Time{})).move_m2_s5);
+}
+
+TEST(HeadFilter, may_change_more_the_harder_it_accelerates) {
+  HeadState state = known_at({}, Time{});
+  state.covariance *= 1e-4;
+  EXPECT_EQ(noise_of_change(state).turn_rad2_s5, Mat3(Mat3::Zero()));
+  state.turn.acceleration = {0, 4, 0};
+  const Mat3 noise = noise_of_change(state).turn_rad2_s5;
+  EXPECT_NEAR(noise(1, 1) / noise(0, 0), 10, 1e-6);
+  state.turn.acceleration = {0, 8, 0};
+  EXPECT_NEAR(noise_of_change(state).turn_rad2_s5(1, 1), 4 * noise(1, 1), 0.01 * noise(1, 1));
+  EXPECT_GT(noise(1, 1), 50);
+}
+
+/// Noise for change of a head at rest after 150 ms of dots, each aside by its share of a pixel.
+MotionNoise change_after(const std::function<double(int)>& aside_px) {
+  const auto cameras = cameras_behind(2);
+  HeadState state = known_at({Quat::Identity(), {0, 1.65, 2}}, Time{}, 0.002);
+  state.covariance.diagonal().segment<6>(3) *= 1e-3;
+  state.covariance.diagonal().segment<6>(12) *= 1e-3;
+  const HeadState at_rest = state;
+  for (int i = 1; i <= 30; ++i) {
+    propagate(state, Time{} + milliseconds(5 * i), noise_of_motion(state));
+    const CameraModel& camera = cameras[static_cast<std::size_t>(i % 2)];
+    for (const Vec3& led : kFourLeds) {
+      const Vec2 raw_px = expect_dot(at_rest, camera, led)->raw_px + Vec2(aside_px(i), 0);
+      correct(state, *expect_dot(state, camera, led), raw_px, 0.36 * Eigen::Matrix2d::Identity());
+    }
+  }
+  return noise_of_change(state);
+}
+
+TEST(HeadFilter, allows_for_change_where_dots_keep_pulling_one_way) {
+  Random random(3);
+  const auto scattered = [&](int) { return random.normal(0.6); };
+  const auto setting_off = [](int i) { return 1300 * std::pow(0.005 * i, 3); };  // 18 m/s^3
+  EXPECT_LT(change_after(scattered).move_m2_s5.trace(), 0.5);
+  const Mat3 change = change_after(setting_off).move_m2_s5;
+  EXPECT_GT(change(0, 0), 5);
+  EXPECT_GT(change(0, 0), 3 * change(1, 1));
+}
+
+TEST(HeadFilter, is_less_sure_of_what_it_predicts) {
+  HeadState state = known_at({}, Time{});
+  const auto place = [](const PoseSample& pose) -> Mat3 {
+    return pose.covariance.topLeftCorner<3, 3>();
+  };
+  EXPECT_LT((place(predicted(state, milliseconds(40))) - place(sample_of(state))).norm(), 1e-8)
+      << "at rest nothing is predicted";
+  state.move.velocity = {0.5, 0, 0};
+  HeadState later = state;
+  propagate(later, Time{} + milliseconds(40), noise_of_motion(state));
+  EXPECT_LT((place(predicted(state, milliseconds(40))) - place(sample_of(later))).norm(), 1e-12);
+  EXPECT_GT(place(sample_of(later)).trace(), 2 * place(sample_of(state)).trace());
+}
+
 TEST(HeadFilter, predicts_a_moving_head_and_leaves_a_still_one) {
   HeadState state = known_at({}, Time{});
   state.move.velocity = {0.5, 0, 0};
@@ -162,6 +237,25 @@ TEST_F(AssociationTest, leaves_out_false_dots_and_does_with_missing_leds) {
   const auto result = associate(seen, cameras_[0], leds_, heads_);
   EXPECT_EQ(result.accepted.size(), 3u);
   for (const AcceptedDot& dot : result.accepted) EXPECT_NE(dot.dot, 1u);
+}
+
+TEST_F(AssociationTest, tells_of_dots_a_little_aside_though_they_correct_nothing) {
+  heads_[0].state = known_at(head_, Time{}, 1e-4);
+  heads_[0].state->covariance.diagonal().segment<3>(9).setConstant(1e-8);
+  const auto with_one_aside_by = [&](double y_px) {
+    std::vector<HeadTrack> heads = heads_;
+    TimedDots seen = seen_of(head_, 0, Time{} + milliseconds(1));
+    seen.dots[2].y_px = dot_of(cameras_[0], head_, leds_[0][2]).y() + y_px;
+    return associate(seen, cameras_[0], leds_, heads, {.may_widen = false});
+  };
+  EXPECT_EQ(with_one_aside_by(1).accepted.size(), 4u);
+  EXPECT_TRUE(with_one_aside_by(1).aside.empty());
+  const Association near = with_one_aside_by(2.7), far = with_one_aside_by(5);
+  EXPECT_EQ(near.accepted.size(), 3u);
+  ASSERT_EQ(near.aside.size(), 1u);
+  EXPECT_NEAR(near.aside[0].residual_px.y(), 2.7, 0.1);
+  EXPECT_EQ(far.accepted.size(), 3u);
+  EXPECT_TRUE(far.aside.empty());
 }
 
 TEST_F(AssociationTest, takes_a_masked_dot_only_where_an_led_must_be) {
