@@ -2,9 +2,14 @@
 // than `vindu measure accuracy` has; the margins hold over seeds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "simulator/motions.h"
 #include "simulator/moving_study.h"
 #include "simulator/single_frame.h"
+#include "simulator/trial.h"
+#include "tracker/wiimote/emulator_link.h"
 
 namespace vindu {
 namespace {
@@ -78,6 +83,59 @@ TEST(MovingHead, HasAFifthOfTheThesisErrorAndNoMoreThanTheBestFixedNoise) {
   EXPECT_LE(study.joint.eye_rms_m, 0.2 * study.thesis->six_dof.eye_rms_m);
   EXPECT_LE(study.joint.eye_rms_m, 1.2 * study.best_fixed.eye_rms_m);
   EXPECT_GE(study.joint.found, 0.99);
+}
+
+TEST(MovingHead, NeedsNobodyToSayHowItMoves) {
+  for (const HeadMoves moves : {HeadMoves::still, HeadMoves::walks, HeadMoves::starts_and_stops}) {
+    MovingStudyOptions options = moving(moves, Link::bursts, {});
+    options.length_s = 40;
+    const MovingStudy study = study_moving(options);
+    EXPECT_LE(study.joint.eye_rms_m, 1.08 * study.best_fixed.eye_rms_m) << name_of(moves);
+  }
+}
+
+/// What a head of few LEDs costs, over half a minute and a bursty link.
+TrialErrors errors_with_leds(std::vector<Vec3> leds_in_head, const std::string& mode,
+                             const BodyMotion& motion) {
+  TrialOptions options;
+  options.cameras = cameras_of({});
+  options.head.leds_in_head = std::move(leds_in_head);
+  options.room_from_head = motion;
+  options.wiimote.noise_px = 0.5;
+  options.wiimote.link = two_on_one_adapter();
+  options.length = std::chrono::seconds(30);
+  return errors_of(run_trial(options, {{.mode = mode}})[0]);
+}
+
+TEST(MovingHead, IsFollowedByOneLedWhereItFacesTheWall) {
+  const TrialErrors errors =
+      errors_with_leds({{0, 0, 0}}, "position", swaying(kHeadPlace_in_room, 0.57, 0));
+  EXPECT_EQ(errors.found, 1);
+  EXPECT_LE(errors.eye_rms_m, 0.006);
+}
+
+TEST(MovingHead, IsFollowedByTwoLeds) {
+  const std::vector<Vec3> leds = {{-0.09, 0, -0.09}, {0.09, 0, -0.09}};
+  const TrialErrors errors =
+      errors_with_leds(leds, "auto", swaying(kHeadPlace_in_room, 0.57, radians(40)));
+  EXPECT_EQ(errors.found, 1);
+  EXPECT_LE(errors.eye_rms_m, 0.03);
+}
+
+/// 8 cm and 15 degrees to the side within a quarter of a second, and back after half a second.
+Rigid3 twitching(Time time) {
+  constexpr double kWay_s = 0.25;
+  const double t_s = std::fmod(seconds(time.time_since_epoch()), 1.5);
+  const double begun = std::clamp(t_s / kWay_s, 0.0, 1.0);
+  const double ended = std::clamp((t_s - 0.75) / kWay_s, 0.0, 1.0);
+  const double share = 0.5 * (std::cos(kPi * ended) - std::cos(kPi * begun));
+  return {Quat(Eigen::AngleAxisd(radians(15) * share, Vec3::UnitY())),
+          kHeadPlace_in_room + 0.08 * share * Vec3::UnitX()};
+}
+
+TEST(MovingHead, IsFoundAgainAtOnceWhereItStartsTooSharply) {
+  const TrialErrors errors = errors_with_leds(HeadConfig{}.leds_in_head, "auto", twitching);
+  EXPECT_GE(errors.found, 0.998);
 }
 
 TEST(MovingHead, HasAQuarterOfTheThesisErrorWhereReportsAreLost) {

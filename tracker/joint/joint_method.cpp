@@ -32,13 +32,16 @@ std::ptrdiff_t dots_of(const FoundHead& found) {
   return dots;
 }
 
-/// Few dots that are not one head's fit some pose as well, but seldom as closely as a head's.
 bool fits_closely(const FoundHead& found) {
   constexpr double kLargest = 2.5;  // squared sigmas for each number that the pose leaves free
-  const std::ptrdiff_t dots = dots_of(found);
-  if (dots >= kManyDots || found.level != TrackingLevel::six_dof) return true;
   return found.fit.cost <=
-         kLargest * static_cast<double>(std::max<std::ptrdiff_t>(2 * dots - 6, 1));
+         kLargest * static_cast<double>(std::max<std::ptrdiff_t>(2 * dots_of(found) - 6, 1));
+}
+
+/// Few dots that are not one head's fit some pose as well, but seldom as closely as a head's.
+bool fits_by_chance(const FoundHead& found) {
+  return dots_of(found) < kManyDots && found.level == TrackingLevel::six_dof &&
+         !fits_closely(found);
 }
 
 /// Whether it is of fewer than six dots, beside more than half as many of nobody: where cameras
@@ -137,6 +140,7 @@ void JointMethod::replay() {
       born.seen = entry.seen.captured;
       born.seen_by.fill(born.seen);
       born.led_seen.fill(born.seen);
+      born.surprise = 0;
     }
     judge(entry);
   }
@@ -380,21 +384,36 @@ bool JointMethod::may_be_another(const Look& look, std::size_t head, const Found
   return false;
 }
 
+JointMethod::Verdict JointMethod::verdict_on(const Look& look, std::size_t head,
+                                             const std::optional<FoundHead>& found) const {
+  Verdict verdict{.doubted = !look.tracked || contradicted(head)};
+  verdict.fits = found && (options_.position_only || !fits_by_chance(*found)) &&
+                 (!look.tolerant || dots_of(*found) >= kManyDots) &&
+                 (look.slack_px == 0 || look.tracked || !may_be_another(look, head, *found));
+  if (!verdict.fits) return verdict;
+  const bool there = look.tracked && same_pose(found->fit.room_from_head, *look.tracked);
+  // Of two cameras that contradict each other, a tolerant look is to find them all.
+  const bool contrary = verdict.doubted && may_contradict() && !fits_closely(*found);
+  verdict.better = there && !contrary && explains_more(*found, dots_tracked_by(head));
+  verdict.known =
+      found->believed || (there && !verdict.better && !(look.tolerant && verdict.doubted));
+  return verdict;
+}
+
 // Looks in a row that find a head in one place are right: false dots do not repeat themselves.
+bool JointMethod::confirmed(Search& search, const Rigid3& pose, int looks) {
+  const bool again = search.rumour && same_pose(pose, *search.rumour);
+  search.rumour = pose;
+  search.confirmed = again ? search.confirmed + 1 : 1;
+  return search.confirmed >= looks;
+}
+
 void JointMethod::conclude(std::size_t head) {
   Search& search = searches_[head];
   const Look& look = *search.look;
   const auto found = look.search.winner();
-  const bool doubted = !look.tracked || contradicted(head);
-  const bool fits = found && (options_.position_only || fits_closely(*found)) &&
-                    (!look.tolerant || dots_of(*found) >= kManyDots) &&
-                    (look.slack_px == 0 || look.tracked || !may_be_another(look, head, *found));
+  const auto [fits, known, better, doubted] = verdict_on(look, head, found);
   if (fits) judge_cameras(look.search.views(), *found);
-  const bool there = fits && look.tracked && same_pose(found->fit.room_from_head, *look.tracked);
-  // Of two cameras that contradict each other, a tolerant look is to find them all.
-  const bool chance = doubted && may_contradict();
-  const bool better = there && !chance && explains_more(*found, dots_tracked_by(head));
-  const bool known = fits && (found->believed || (there && !better && !(look.tolerant && doubted)));
   if (!fits || known) {
     if (doubted)
       search.failed.add(dots_enough(look, head));
@@ -402,11 +421,8 @@ void JointMethod::conclude(std::size_t head) {
       search.failed.forget();
     return search.rumour.reset();
   }
-  const Rigid3& pose = found->fit.room_from_head;
-  const bool again = search.rumour && same_pose(pose, *search.rumour);
-  search.rumour = pose;
-  search.confirmed = again ? search.confirmed + 1 : 1;
-  if (search.confirmed < looks_needed(*found, look.tracked && doubted, better)) return;
+  const int looks = looks_needed(*found, look.tracked && doubted, better);
+  if (!confirmed(search, found->fit.room_from_head, looks)) return;
   const auto newest = entry_of(look);
   if (!newest) return;
   if (doubted && few_beside_many(*found))

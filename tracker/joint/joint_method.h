@@ -95,12 +95,24 @@ class JointMethod {
     std::size_t steps = 0;            ///< a frame
   };
 
+  /// What a look found, beside what is tracked.
+  struct Verdict {
+    bool fits = false;     ///< it may be the head
+    bool known = false;    ///< which is tracked there already
+    bool better = false;   ///< there, but by fewer dots
+    bool doubted = false;  ///< no head is tracked, or one that most dots contradict
+  };
+  struct Search;
+
   void insert(Entry entry);
   void replay();
   void judge(Entry& entry);
   void forget_old();
   void look_for(std::size_t head, Time now);
   void go_on(std::size_t head);
+  Verdict verdict_on(const Look& look, std::size_t head,
+                     const std::optional<FoundHead>& found) const;
+  static bool confirmed(Search& search, const Rigid3& pose, int looks);
   void conclude(std::size_t head);
   std::optional<std::size_t> entry_of(const Look& look) const;
   Time common_time() const;
