@@ -2,9 +2,11 @@
 #include "core/new_file.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "core/error.h"
 
@@ -27,7 +29,8 @@ class NewFiles : public ::testing::Test {
         std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
 
-  const std::string folder_ = ::testing::TempDir() + "new_file_test", file_ = folder_ + "/a.txt";
+  const std::string folder_ = ::testing::TempDir() + "vindu-new-" + std::to_string(::getpid());
+  const std::string file_ = folder_ + "/a.txt";
 };
 
 TEST_F(NewFiles, AreNotThereBeforeTheyAreWhole) {
