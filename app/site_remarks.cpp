@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/calibrate.h"
 #include "core/error.h"
 #include "tracker/calibration/layout.h"
 #include "tracker/tracker.h"

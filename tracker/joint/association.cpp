@@ -59,16 +59,17 @@ std::optional<Vec3> unseen_axis(const HeadTrack& head, std::span<const Vec3> led
 /// How hard the head may be accelerating, as far as what is seen of it tells.
 MotionNoise motion_noise_of(const HeadTrack& head, std::size_t leds, Time now,
                             const AssociationOptions& options) {
+  if (options.fixed_noise) return *options.fixed_noise;
+  const bool two = seen_by_two(head, now, options);
   const auto enough = static_cast<std::ptrdiff_t>(std::min<std::size_t>(leds, 3));
-  MotionNoise noise = options.fixed_noise ? *options.fixed_noise : noise_of_motion(*head.state);
-  if (!seen_by_two(head, now, options)) {
-    noise.move_m2_s5 = options.alone_m2_s5 * Mat3::Identity();
-  } else if (!options.fixed_noise && leds_seen(head, now, options) >= enough) {
+  MotionNoise noise = noise_of_motion(*head.state);
+  if (!two) noise.move_m2_s5 = options.alone_m2_s5 * Mat3::Identity();
+  if (two && leds_seen(head, now, options) >= enough) {
     const MotionNoise change = noise_of_change(*head.state);
     noise.move_m2_s5 += change.move_m2_s5;
     noise.turn_rad2_s5 += change.turn_rad2_s5;
   }
-  if (!options.fixed_noise && well_seen(head, now, options)) {
+  if (well_seen(head, now, options)) {
     const double beyond =
         std::max(0.0, std::min(head.surprise, options.most_surprise) - options.usual_surprise);
     noise.move_m2_s5 += beyond * beyond * options.move_by_surprise_m2_s5 * Mat3::Identity();

@@ -412,20 +412,20 @@ void JointMethod::conclude(std::size_t head) {
   Search& search = searches_[head];
   const Look& look = *search.look;
   const auto found = look.search.winner();
-  const auto [fits, known, better, doubted] = verdict_on(look, head, found);
-  if (fits) judge_cameras(look.search.views(), *found);
-  if (!fits || known) {
-    if (doubted)
+  const Verdict verdict = verdict_on(look, head, found);
+  if (verdict.fits) judge_cameras(look.search.views(), *found);
+  if (!verdict.fits || verdict.known) {
+    if (verdict.doubted)
       search.failed.add(dots_enough(look, head));
-    else if (known)
+    else if (verdict.known)
       search.failed.forget();
     return search.rumour.reset();
   }
-  const int looks = looks_needed(*found, look.tracked && doubted, better);
+  const int looks = looks_needed(*found, look.tracked && verdict.doubted, verdict.better);
   if (!confirmed(search, found->fit.room_from_head, looks)) return;
   const auto newest = entry_of(look);
   if (!newest) return;
-  if (doubted && few_beside_many(*found))
+  if (verdict.doubted && few_beside_many(*found))
     search.failed.add(dots_enough(look, head));
   else
     search.failed.forget();
