@@ -66,6 +66,14 @@ TEST_F(CalibrateCommand, OfTheWallDrawsWhatItShowsPointByPoint) {
   EXPECT_EQ((SizePx{tile.width_px, tile.height_px}), (SizePx{1024, 768}));
 }
 
+TEST_F(CalibrateCommand, OfTheWallSaysWhereItHasFewerPointsThanAskedFor) {
+  ASSERT_EQ(vindu({"calibrate", "wand", "--wall", wall_}).exit_code, 0);
+  const ProcessResult result =
+      vindu({"calibrate", "wall", "--wall", wall_, "--targets", "20", "--dry-run"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("Two cameras see 12 tile corners together, not 20."));
+}
+
 TEST_F(CalibrateCommand, OfTheWallInAWindowRunsToItsEnd) {
   const VirtualDisplay display;
   ASSERT_NE(display.name(), "") << "Xvfb does not start";
