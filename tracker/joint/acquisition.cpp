@@ -79,6 +79,11 @@ class HeadSearch::Contest {
       judge(*fit, std::move(labels), /*believed=*/true);
   }
 
+  std::optional<Rigid3> leading() const {
+    const auto best = std::ranges::min_element(entries_, {}, &FoundHead::cost);
+    return best == entries_.end() ? std::nullopt : std::optional(best->fit.room_from_head);
+  }
+
   std::optional<FoundHead> winner() {
     if (entries_.empty()) return std::nullopt;
     const auto best = std::ranges::min_element(entries_, {}, &FoundHead::cost);
@@ -245,6 +250,8 @@ bool HeadSearch::advance(std::size_t most) {
 }
 
 std::optional<FoundHead> HeadSearch::winner() const { return contest_->winner(); }
+
+std::optional<Rigid3> HeadSearch::leading() const { return contest_->leading(); }
 
 const std::vector<CameraView>& HeadSearch::views() const { return contest_->views(); }
 

@@ -62,6 +62,9 @@ class HeadSearch {
   /// In the end. Empty when there is no candidate, or two are too close to choose.
   std::optional<FoundHead> winner() const;
 
+  /// The best so far, however close another one comes.
+  std::optional<Rigid3> leading() const;
+
   const std::vector<CameraView>& views() const;
 
  private:

@@ -70,11 +70,19 @@ bool same_pose(const Rigid3& a, const Rigid3& b) {
          a.rotation.angularDistance(b.rotation) < radians(20);
 }
 
+/// What its dots are off by, those that are a little too far off for any correction included.
+std::vector<MisfitDot> misfit_of(const TimedDots& seen, const Association& association) {
+  std::vector<MisfitDot> dots = association.aside;
+  for (const AcceptedDot& dot : association.accepted)
+    dots.push_back({raw_px_of(seen.dots[dot.dot]) - dot.residual_px, dot.residual_px});
+  return dots;
+}
+
 }  // namespace
 
 JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const HeadConfig> heads,
                          const JointOptions& options)
-    : options_(options), base_(heads.size()), searches_(heads.size()) {
+    : options_(options), quorum_(cameras.size()), base_(heads.size()), searches_(heads.size()) {
   if (cameras.size() > kMaxCameras)
     throw Error({"names " + std::to_string(cameras.size()) + " cameras", "[[camera]]",
                  "name " + std::to_string(kMaxCameras) + " at most"});
@@ -91,19 +99,20 @@ JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const 
 
 void JointMethod::absorb(const Observation& observation) {
   assert(observation.camera >= 0 && static_cast<std::size_t>(observation.camera) < eyes_.size());
-  Eye& eye = eyes_[static_cast<std::size_t>(observation.camera)];
+  const auto camera = static_cast<std::size_t>(observation.camera);
+  Eye& eye = eyes_[camera];
   const CaptureTime device = eye.clock.capture_of(observation.arrival);
   const CaptureTime arrival = {observation.arrival - eye.clock.lag(), Milliseconds(2)};
   const CaptureTime& used = eye.uses_device_time ? device : arrival;
   Entry entry;
   entry.other_time = eye.uses_device_time ? arrival.time : device.time;
-  entry.seen = {
-      .camera = observation.camera,
-      .captured = used.time,
-      .time_sigma_s = seconds(used.sigma),
-      .dot_sigma_px = std::hypot(options_.dot_sigma_px, disagreement_.sigma_px(), aside_px(eye)),
-      .distrust = eye.watch.distrust(),
-      .dots = {}};
+  entry.seen = {.camera = observation.camera,
+                .captured = used.time,
+                .time_sigma_s = seconds(used.sigma),
+                .dot_sigma_px = std::hypot(options_.dot_sigma_px, disagreement_.sigma_px(),
+                                           quorum_.doubt_px(camera)),
+                .distrust = eye.watch.distrust(),
+                .dots = {}};
   for (const Dot& dot : observation.dots) {
     entry.seen.masked[entry.seen.dots.size()] = eye.statics.masked(raw_px_of(dot));
     entry.seen.dots.push_back(dot);
@@ -130,7 +139,7 @@ void JointMethod::replay() {
     entry.after = i == 0 ? base_ : entries_[i - 1].after;
     const auto camera = static_cast<std::size_t>(entry.seen.camera);
     AssociationOptions options = association_;
-    options.may_widen = eyes_[camera].watch.may_widen();
+    options.may_widen = eyes_[camera].watch.may_widen() && !stands_aside(camera);
     options.farthest_px += 2 * disagreement_.sigma_px();
     entry.association =
         associate(entry.seen, cameras_[camera], leds_of_heads_, entry.after, options);
@@ -164,10 +173,12 @@ void JointMethod::judge_cameras(const std::vector<CameraView>& views, const Foun
     return std::ranges::any_of(leds, [](int led) { return led >= 0; });
   };
   const auto agree = std::ranges::count_if(found.led_of_dot, labelled);
-  for (std::size_t v = 0; v < views.size(); ++v)
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const auto camera = static_cast<std::size_t>(views[v].camera);
     if (const bool fits = labelled(found.led_of_dot[v]);
-        views[v].dots_px.size() >= 2 && agree - fits >= 2)
-      eyes_[static_cast<std::size_t>(views[v].camera)].watch.judge(fits);
+        views[v].dots_px.size() >= 2 && agree - fits >= 2 && (fits || !quorum_.knows(camera)))
+      eyes_[camera].watch.judge(fits);
+  }
 }
 
 // What a report says of its camera counts once, however often the report is replayed.
@@ -186,15 +197,15 @@ void JointMethod::judge(Entry& entry) {
       eye.statics.watch(raw_px, entry.seen.captured);
   }
   eye.watch.count(entry.association);
-  if (!options_.position_only) eye.watch.note_misfit(misfit_of(entry));
+  if (!options_.position_only) eye.watch.note_misfit(misfit_of(entry.seen, entry.association));
   if (may_contradict()) note_disagreement();
   const double other_s = seconds(entry.other_time - entry.seen.captured);
   if (eye.clock.locked() && eye.watch.prefers_other_time(entry.association, other_s))
     eye.uses_device_time = !eye.uses_device_time;
 }
 
-/// Of two cameras: of more, the one that stands aside is named, and trusted less. Where heads face
-/// the wall, whatever they do, dots never fit.
+/// Of two cameras: of more, the one that stands aside is named, and trusted less. Where heads
+/// face the wall, whatever they do, dots never fit.
 bool JointMethod::may_contradict() const { return cameras_.size() == 2 && !options_.position_only; }
 
 void JointMethod::note_disagreement() {
@@ -273,8 +284,8 @@ AcquisitionOptions JointMethod::acquisition_options(const HeadTrack& head, doubl
   return options;
 }
 
-/// Doubtful is a head that surprises, or leaves dots of the cameras' newest reports to nobody: few
-/// beside many of its own are lamps, unless a camera has nothing else.
+/// Doubtful is a head that surprises, or leaves dots of the cameras' newest reports to nobody:
+/// few beside many of its own are lamps, unless a camera has nothing else.
 Duration JointMethod::pause_of_looks(std::size_t head) const {
   constexpr double kSurprising = 4;
   constexpr std::ptrdiff_t kOwnPerLeft = 4;
@@ -323,8 +334,9 @@ void JointMethod::look_for(std::size_t head, Time now) {
       std::max(disagreement_.sigma_px(), tolerant ? search.failed.tried_px() : 0);
   std::vector<CameraView> views;
   for (const std::size_t i : entries)
-    views.push_back(
-        view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common), slack_px));
+    if (!stands_aside(static_cast<std::size_t>(entries_[i].seen.camera)))
+      views.push_back(view_of(entries_[i], head,
+                              std::chrono::abs(entries_[i].seen.captured - common), slack_px));
   search.look = Look{.search = HeadSearch(cameras_, std::move(views), leds_of_heads_[head],
                                           acquisition_options(track, slack_px)),
                      .camera = seen.camera,
@@ -414,6 +426,7 @@ void JointMethod::conclude(std::size_t head) {
   const auto found = look.search.winner();
   const Verdict verdict = verdict_on(look, head, found);
   if (verdict.fits) judge_cameras(look.search.views(), *found);
+  if (!look.tracked) weigh(look, head);
   if (!verdict.fits || verdict.known) {
     if (verdict.doubted)
       search.failed.add(dots_enough(look, head));
@@ -441,6 +454,7 @@ void JointMethod::update(Time now) {
     go_on(head);
     replay();  // the next head is not found of the dots that this one was found of
   }
+  weigh_tracked(now);
   for (std::size_t head = 0; head < searches_.size(); ++head) {
     const HeadTrack& track = newest_heads()[head];
     if (!track.state) continue;

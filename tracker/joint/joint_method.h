@@ -4,6 +4,7 @@
 // reports and their arrivals come in.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <span>
@@ -16,6 +17,7 @@
 #include "tracker/joint/camera_watch.h"
 #include "tracker/joint/capture_clock.h"
 #include "tracker/joint/disagreement.h"
+#include "tracker/joint/quorum.h"
 #include "tracker/joint/static_dots.h"
 
 namespace vindu {
@@ -32,7 +34,7 @@ struct CameraHealth {
   bool moved = false;        ///< its dots do not fit what the others see
   bool device_time = false;  ///< its own clock is known; else arrivals are used
   std::size_t masks = 0;     ///< reflections that are ignored
-  double aside_px = 0;       ///< of three or more: its dots, from where all expect them
+  double aside_px = 0;       ///< of three or more: its dots, from where the others tell
 };
 
 /// Bound to one thread at a time.
@@ -57,9 +59,11 @@ class JointMethod {
   void update(Time now);
 
   std::vector<CameraHealth> health() const;
-  /// By how much the cameras contradict each other, beyond what their dots' noise explains: raw
-  /// pixels, one sigma; 0 where they agree.
-  double disagreement_px() const { return disagreement_.sigma_px(); }
+  /// By how much the cameras contradict each other, beyond what their dots' noise explains, and
+  /// nobody can say which is wrong: raw pixels, one sigma; 0 where they agree.
+  double disagreement_px() const {
+    return std::max(disagreement_.sigma_px(), quorum_.undecided_px());
+  }
   /// By which share heads look larger than their LEDs are apart where the cameras' rays meet; that
   /// of the camera with the most, of two or more. Poses of cameras, lenses or LEDs are wrong then.
   double heads_look_larger() const;
@@ -120,9 +124,10 @@ class JointMethod {
   CameraView view_of(const Entry& entry, std::size_t head, Duration apart, double slack_px) const;
   bool may_contradict() const;
   void note_disagreement();
-  double aside_px(const Eye& eye) const;
-  std::vector<MisfitDot> misfit_of(const Entry& entry) const;
-  bool seen_by_others(const Entry& entry, std::size_t head) const;
+  bool moved(std::size_t camera) const;
+  bool stands_aside(std::size_t camera) const;
+  void weigh_tracked(Time now);
+  void weigh(const Look& look, std::size_t head);
   AcquisitionOptions acquisition_options(const HeadTrack& head, double slack_px) const;
   std::ptrdiff_t dots_tracked_by(std::size_t head) const;
   bool may_be_another(const Look& look, std::size_t head, const FoundHead& found) const;
@@ -143,7 +148,9 @@ class JointMethod {
   std::vector<CameraModel> cameras_;
   std::vector<Eye> eyes_;
   std::vector<std::vector<Vec3>> leds_of_heads_;
-  Disagreement disagreement_;
+  Disagreement disagreement_;  // of two cameras
+  Quorum quorum_;              // of more
+  Time weighed_{};             // when it was asked last
   std::deque<Entry> entries_;  // in order of capture
   std::size_t replay_from_ = 0;
   Time now_{};                   // of the last update

@@ -35,7 +35,7 @@ bool JointMethod::contradicted(std::size_t head) const {
     if (entries_.back().seen.captured - entry->seen.captured > kLately || bears(*entry, head) ||
         !entry->after[head].state)
       break;
-    if (eyes_[camera].watch.moved()) continue;
+    if (moved(camera) || stands_aside(camera)) continue;
     std::array<bool, kMaxDots> known = entry->seen.masked;
     for (std::size_t i = 0; i < known.size(); ++i) known[i] |= entry->association.disputed[i];
     for (const AcceptedDot& dot : entry->association.accepted) {
@@ -114,7 +114,7 @@ TrackingLevel JointMethod::level_now(std::size_t head) const {
 // What does not fit is the same in every picture: no mean over time makes it less.
 void JointMethod::add_misfit(std::size_t head, PoseSample& sample) const {
   constexpr double kUsual = 0.005;  // of sizes, as LEDs and lenses are known
-  if (disagreement_.sigma_px() > 0) {
+  if (disagreement_px() > 0) {
     const Eigen::LDLT<Mat6> information(information_now(head));
     if (information.isPositive() && information.rcond() > 1e-12)
       sample.covariance += information.solve(Mat6::Identity());
@@ -129,63 +129,56 @@ void JointMethod::add_misfit(std::size_t head, PoseSample& sample) const {
   }
 }
 
-/// Whether two cameras beside this one see it now.
-bool JointMethod::seen_by_others(const Entry& entry, std::size_t head) const {
-  constexpr Duration kLately = Milliseconds(80);
-  const HeadTrack& track = entry.after[head];
-  if (!track.state) return false;
-  int others = 0;
-  for (std::size_t camera = 0; camera < cameras_.size(); ++camera)
-    others += static_cast<int>(camera) != entry.seen.camera &&
-              entry.seen.captured - track.seen_by[camera] < kLately;
-  return others >= 2;
-}
-
-// Where others know well enough where a head is and none of the camera's dots fits, those
-// next to its LEDs tell how far the camera looks aside.
-std::vector<MisfitDot> JointMethod::misfit_of(const Entry& entry) const {
-  constexpr double kNext_px = 25;
-  std::vector<MisfitDot> dots = entry.association.aside;
-  for (const AcceptedDot& dot : entry.association.accepted)
-    dots.push_back({raw_px_of(entry.seen.dots[dot.dot]) - dot.residual_px, dot.residual_px});
-  if (!dots.empty() || entry.seen.dots.size() < 2) return dots;
-  const CameraModel& camera = cameras_[static_cast<std::size_t>(entry.seen.camera)];
-  std::array<bool, kMaxDots> taken = entry.seen.masked;
-  for (std::size_t head = 0; head < leds_of_heads_.size(); ++head) {
-    if (!seen_by_others(entry, head)) continue;
-    for (const Vec3& led : leds_of_heads_[head]) {
-      const auto expected = dot_of_led(camera, entry.after[head].state->room_from_head, led);
-      if (!expected) continue;
-      const auto off_px = [&](std::size_t i) -> Vec2 {
-        return raw_px_of(entry.seen.dots[i]) - expected->raw_px;
-      };
-      std::optional<std::size_t> next;
-      for (std::size_t i = 0; i < entry.seen.dots.size(); ++i)
-        if (!taken[i] && off_px(i).norm() < (next ? off_px(*next).norm() : kNext_px)) next = i;
-      if (!next) continue;
-      taken[*next] = true;
-      dots.push_back({expected->raw_px, off_px(*next)});
-    }
-  }
-  return dots.size() < 2 ? std::vector<MisfitDot>{} : dots;
-}
-
 double JointMethod::heads_look_larger() const {
   double most = 0;
-  for (const Eye& eye : eyes_)
-    if (!eye.watch.moved() && std::abs(eye.watch.larger()) > std::abs(most))
-      most = eye.watch.larger();
+  for (std::size_t camera = 0; camera < eyes_.size(); ++camera)
+    if (const double larger = eyes_[camera].watch.larger();
+        !moved(camera) && !stands_aside(camera) && std::abs(larger) > std::abs(most))
+      most = larger;
   return eyes_.size() > 1 ? most : 0;
 }
 
-/// What of a camera's dots does not fit, where those of two others do: of two nobody can say which
-/// is wrong. As Disagreement has it, a little is usual.
-double JointMethod::aside_px(const Eye& eye) const {
-  constexpr double kUsual_px = 0.8;
-  if (options_.position_only) return 0;
-  const auto fits = [](const Eye& other) { return other.watch.aside_px().norm() < kUsual_px; };
-  if (fits(eye) || std::ranges::count_if(eyes_, fits) < 2) return 0;
-  return eye.watch.aside_px().norm();
+bool JointMethod::moved(std::size_t camera) const {
+  constexpr double kMoved_px = 12;  // half a degree of a Wiimote
+  return eyes_[camera].watch.moved() || quorum_.aside_px(camera).norm() > kMoved_px;
+}
+
+/// Too far for its dots to be of use where those of two others are.
+bool JointMethod::stands_aside(std::size_t camera) const {
+  constexpr double kTooFar_px = 2;
+  return quorum_.aside_px(camera).norm() > kTooFar_px;
+}
+
+// By the dots of the cameras' newest pictures, each where the head was by then.
+void JointMethod::weigh_tracked(Time now) {
+  constexpr Duration kPause = Milliseconds(50);
+  if (cameras_.size() < 3 || options_.position_only || entries_.empty() || now - weighed_ < kPause)
+    return;
+  weighed_ = now;
+  const std::vector<std::size_t> entries = together(common_time());
+  if (entries.size() < 3) return;
+  const Entry& first = entries_[*std::ranges::min_element(entries)];
+  for (std::size_t head = 0; head < leds_of_heads_.size(); ++head) {
+    const auto& state = first.after[head].state;
+    if (!state) continue;
+    std::vector<Glimpse> glimpses;
+    for (const std::size_t i : entries) {
+      const CameraView view = view_of(entries_[i], head, Duration::zero(), 0);
+      const PoseSample then = predicted(*state, entries_[i].seen.captured - state->time);
+      glimpses.push_back({view.camera, then.room_from_head, view.dots_px, view.sigma_px});
+    }
+    quorum_.note(cameras_, leds_of_heads_[head], glimpses);
+  }
+}
+
+/// The same where no head is tracked, and cameras contradict each other in where it is.
+void JointMethod::weigh(const Look& look, std::size_t head) {
+  const auto leading = look.search.leading();
+  if (cameras_.size() < 3 || options_.position_only || !leading) return;
+  std::vector<Glimpse> glimpses;
+  for (const CameraView& view : look.search.views())
+    glimpses.push_back({view.camera, *leading, view.dots_px, view.sigma_px});
+  quorum_.note(cameras_, leds_of_heads_[head], glimpses);
 }
 
 bool JointMethod::nothing_fits() const {
@@ -196,11 +189,13 @@ bool JointMethod::nothing_fits() const {
 
 std::vector<CameraHealth> JointMethod::health() const {
   std::vector<CameraHealth> health;
-  for (const Eye& eye : eyes_)
-    health.push_back({.moved = eye.watch.moved(),
+  for (std::size_t camera = 0; camera < eyes_.size(); ++camera) {
+    const Eye& eye = eyes_[camera];
+    health.push_back({.moved = moved(camera),
                       .device_time = eye.uses_device_time && eye.clock.locked(),
                       .masks = eye.statics.masks_px().size(),
-                      .aside_px = aside_px(eye)});
+                      .aside_px = quorum_.aside_px(camera).norm()});
+  }
   return health;
 }
 

@@ -54,7 +54,7 @@ class JointMethodTest : public ::testing::Test {
   void feed(JointMethod& method, double from_s, double to_s, Heads heads_at) {
     for (int k = static_cast<int>(std::lround(from_s * 100)); k < std::lround(to_s * 100); ++k) {
       const Time time{milliseconds(10 * k)};
-      for (int camera = 0; camera < 2; ++camera)
+      for (int camera = 0; camera < std::ssize(configs_); ++camera)
         method.absorb(seen_by(camera, heads_at(0.01 * k), time));
       method.update(time);
     }
@@ -65,13 +65,17 @@ class JointMethodTest : public ::testing::Test {
     return pose ? (pose->room_from_head.translation - truth.translation).norm() : 1e9;
   }
 
-  /// Somebody turns the right camera: about its x axis (its picture moves up and down) or its y
+  /// Somebody turns a camera: about its x axis (its picture moves up and down) or its y
   /// axis.
-  void bump(int axis, double px) {
+  void bump(int axis, double px, std::size_t camera = 1) {
     Vec3 turn = Vec3::Zero();
     turn[axis] = px / 1335;
-    configs_[1].room_from_camera.rotation =
-        configs_[1].room_from_camera.rotation * rotation_of(turn);
+    Quat& rotation = configs_[camera].room_from_camera.rotation;
+    rotation = rotation * rotation_of(turn);
+  }
+  void add_middle_camera() {
+    configs_.push_back(configs_[0]);
+    configs_.back().room_from_camera = look_at({0, 2.5, 5}, {0, 1.65, 2});
   }
 
   std::vector<CameraConfig> configs_;
@@ -186,23 +190,13 @@ TEST_F(JointMethodTest, knows_the_calibrated_background_from_the_first_report_on
 }
 
 TEST_F(JointMethodTest, names_the_one_of_three_cameras_that_was_bumped) {
-  CameraConfig middle = configs_[0];
-  middle.room_from_camera = look_at({0, 2.4, 5.2}, {0, 1.65, 2});
-  configs_.push_back(middle);
+  add_middle_camera();
   JointMethod method(configs_, heads_);
-  const auto feed_three = [&](int from, int to) {
-    for (int k = from; k < to; ++k) {
-      const Time time{milliseconds(10 * k)};
-      for (int camera = 0; camera < 3; ++camera)
-        method.absorb(seen_by(camera, {walking(0.01 * k)}, time));
-      method.update(time);
-    }
-  };
-  feed_three(0, 300);
+  const auto walks = [](double t) { return std::vector{walking(t)}; };
+  feed(method, 0, 3, walks);
   EXPECT_FALSE(method.health()[2].moved);
-  configs_[2].room_from_camera.rotation =
-      configs_[2].room_from_camera.rotation * rotation_of({0, radians(1.2), 0});
-  feed_three(300, 900);
+  bump(1, 28, 2);
+  feed(method, 3, 9, walks);
   EXPECT_TRUE(method.health()[2].moved);
   EXPECT_FALSE(method.health()[0].moved);
   EXPECT_FALSE(method.health()[1].moved);
@@ -315,16 +309,13 @@ TEST_F(JointMethodTest, finds_no_contradiction_where_heads_are_taken_to_face_the
 
 /// Two of three are right.
 TEST_F(JointMethodTest, follows_the_two_of_three_cameras_that_agree_and_knows_which_stands_aside) {
-  CameraConfig middle = configs_[0];
-  middle.room_from_camera = look_at({0, 2.5, 5}, {0, 1.65, 2});
-  configs_.push_back(middle);
+  add_middle_camera();
   const std::vector<CameraConfig> calibrated = configs_;
   for (const std::size_t bumped : {0u, 1u, 2u})
     for (const double px : {0.0, 4.0, 5.0, 6.0, 8.0, 21.0}) {
       JointMethod method(calibrated, heads_);
       configs_ = calibrated;
-      Rigid3& pose = configs_[bumped].room_from_camera;
-      pose.rotation = pose.rotation * rotation_of({px / 1335, 0, 0});
+      bump(0, px, bumped);
       double worst_m = 0;
       for (int k = 0; k < 1000; ++k) {
         const Time time{milliseconds(10 * k)};
@@ -343,6 +334,27 @@ TEST_F(JointMethodTest, follows_the_two_of_three_cameras_that_agree_and_knows_wh
         else
           EXPECT_LE(aside_px, 0.4 * px) << px << " px, camera " << bumped;
       }
+    }
+}
+
+/// To the side all rays go on meeting, somewhere else.
+TEST_F(JointMethodTest, goes_on_with_the_two_that_agree_when_a_third_is_bumped_to_the_side) {
+  add_middle_camera();
+  const std::vector<CameraConfig> calibrated = configs_;
+  for (const std::size_t bumped : {0u, 1u, 2u})
+    for (const double px : {-17.0, 12.0, 35.0}) {
+      configs_ = calibrated;
+      JointMethod method(calibrated, heads_);
+      feed(method, 0, 4, [](double t) { return std::vector{walking(t)}; });
+      bump(1, px, bumped);
+      feed(method, 4, 12, [](double t) { return std::vector{walking(t)}; });
+      EXPECT_LT(error_m(method, 0, Time{milliseconds(11990)}, walking(11.99)), 0.01)
+          << px << " px, camera " << bumped;
+      const auto health = method.health();
+      for (const std::size_t camera : {0u, 1u, 2u})
+        EXPECT_NEAR(health[camera].aside_px, camera == bumped ? std::abs(px) : 0,
+                    0.1 * std::abs(px))
+            << px << " px, camera " << bumped;
     }
 }
 
