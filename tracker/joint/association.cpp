@@ -27,18 +27,20 @@ bool vague(const HeadState& state, const AssociationOptions& options) {
          variances.tail<3>().sum() > options.lost_at_rad * options.lost_at_rad;
 }
 
-bool seen_by_two(const HeadTrack& head, Time now, const AssociationOptions& options) {
-  return std::ranges::count_if(head.seen_by,
-                               [&](Time seen) { return now - seen < options.coasts_after; }) >= 2;
-}
-
 std::ptrdiff_t leds_seen(const HeadTrack& head, Time now, const AssociationOptions& options) {
   return std::ranges::count_if(head.led_seen,
                                [&](Time seen) { return now - seen < options.coasts_after; });
 }
 
+/// Whether its distance is seen, and with it how it moves: by two cameras, or by enough LEDs.
+bool placed(const HeadTrack& head, Time now, const AssociationOptions& options) {
+  const auto lately = [&](Time seen) { return now - seen < options.coasts_after; };
+  return std::ranges::count_if(head.seen_by, lately) >= 2 ||
+         leds_seen(head, now, options) >= options.leds_that_place;
+}
+
 bool well_seen(const HeadTrack& head, Time now, const AssociationOptions& options) {
-  return leds_seen(head, now, options) >= 3 && seen_by_two(head, now, options);
+  return leds_seen(head, now, options) >= 3 && placed(head, now, options);
 }
 
 /// Through the two LEDs that alone of more were seen lately, in room: how the head turns about it
@@ -60,11 +62,11 @@ std::optional<Vec3> unseen_axis(const HeadTrack& head, std::span<const Vec3> led
 MotionNoise motion_noise_of(const HeadTrack& head, std::size_t leds, Time now,
                             const AssociationOptions& options) {
   if (options.fixed_noise) return *options.fixed_noise;
-  const bool two = seen_by_two(head, now, options);
+  const bool place_known = placed(head, now, options);
   const auto enough = static_cast<std::ptrdiff_t>(std::min<std::size_t>(leds, 3));
   MotionNoise noise = noise_of_motion(*head.state);
-  if (!two) noise.move_m2_s5 = options.alone_m2_s5 * Mat3::Identity();
-  if (two && leds_seen(head, now, options) >= enough) {
+  if (!place_known) noise.move_m2_s5 = options.alone_m2_s5 * Mat3::Identity();
+  if (place_known && leds_seen(head, now, options) >= enough) {
     const MotionNoise change = noise_of_change(*head.state);
     noise.move_m2_s5 += change.move_m2_s5;
     noise.turn_rad2_s5 += change.turn_rad2_s5;
@@ -83,7 +85,7 @@ void move_on(HeadTrack& head, std::span<const Vec3> leds_in_head, Time to,
              const AssociationOptions& options) {
   if (!head.state) return;
   const MotionNoise noise = motion_noise_of(head, leds_in_head.size(), to, options);
-  const bool moves = seen_by_two(head, to, options);
+  const bool moves = placed(head, to, options);
   const bool turns = leds_seen(head, to, options) >= 2;
   const Duration passed = to - head.state->time;
   const auto axis = unseen_axis(head, leds_in_head, to, options);

@@ -42,18 +42,22 @@ struct AssociationOptions {
   /// A dot corrects nothing while another pairing of as many dots is that close to the best one, in
   /// the same measure: one in a hundred of such choices would be wrong, and stay so.
   double clear_by = 9;
+  /// So many LEDs tell of one camera where a head is: four, by one pose alone; three, by one of a
+  /// few, where there is no other camera.
+  std::ptrdiff_t leds_that_place = 4;
   /// Of what nobody has seen for so long, the motion dies out with this time constant: of all, when
-  /// less than two cameras saw the head; of its turning, when less than two LEDs were seen.
+  /// less than two cameras saw the head, or of one fewer LEDs; of its turning, when less than two
+  /// LEDs were seen.
   Duration coasts_after = std::chrono::milliseconds(80);
   Duration damping = std::chrono::milliseconds(150);
   /// Unseen for longer, or known no better than so, a head is lost.
   Duration lost_after = std::chrono::milliseconds(250);
   double lost_at_m = 0.20;
-  /// Factor on the sigma of dots while one camera alone sees a head, or two LEDs alone are seen:
+  /// Factor on the sigma of dots while what is seen does not place a head, or is two LEDs:
   /// what rounding and the LEDs' places leave wrong does not average out, and more hangs on it.
   double weak = 3;
-  /// In place of the noise of motion: a head may walk along the ray of the only camera that sees
-  /// it.
+  /// In place of the noise of motion where it is not placed: a head may walk along the ray of the
+  /// only camera that sees it.
   double alone_m2_s5 = 3;
   /// A head that surprises though it is well seen is accelerating: what noise is added for each
   /// unit of surprise beyond the usual, squared.

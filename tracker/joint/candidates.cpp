@@ -162,6 +162,30 @@ void add_p3p(const CameraModel& camera, const std::vector<cv::Point3d>& leds,
   }
 }
 
+/// The head facing the wall, at the distance and in the direction that its size and place in the
+/// picture tell (weak perspective). Where two solutions nearly meet, noise leaves P3P none.
+void add_facing(const CameraModel& camera, const std::vector<cv::Point3d>& leds,
+                const std::vector<cv::Point2d>& dots, std::vector<Rigid3>& poses) {
+  constexpr double kLargestMisfit = 0.25;  // of the squares of the dots' distances
+  const Quat camera_from_head = camera.camera_from_room().rotation;
+  Eigen::Matrix3d led_in_camera;
+  Eigen::Matrix<double, 2, 3> dot;
+  for (int i = 0; i < 3; ++i) {
+    const cv::Point3d& led = leds[static_cast<std::size_t>(i)];
+    led_in_camera.col(i) = camera_from_head * Vec3(led.x, led.y, led.z);
+    dot.col(i) << dots[static_cast<std::size_t>(i)].x, dots[static_cast<std::size_t>(i)].y;
+  }
+  const Vec3 leds_mean = led_in_camera.rowwise().mean();
+  const Vec2 dots_mean = dot.rowwise().mean();
+  const Eigen::Matrix<double, 2, 3> across = (led_in_camera.colwise() - leds_mean).topRows<2>();
+  const Eigen::Matrix<double, 2, 3> seen = dot.colwise() - dots_mean;
+  const double per_m = seen.cwiseProduct(across).sum() / across.squaredNorm();
+  if (!(per_m > 0) || (seen - per_m * across).squaredNorm() > kLargestMisfit * seen.squaredNorm())
+    return;
+  const Vec3 middle = Vec3(dots_mean.x(), dots_mean.y(), 1) / per_m;
+  poses.push_back(camera.room_from_camera() * Rigid3{camera_from_head, middle - leds_mean});
+}
+
 }  // namespace
 
 RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const CameraView& a,
@@ -199,9 +223,12 @@ RoughPoses candidates_from_one(std::span<const CameraModel> cameras, const Camer
         for (std::size_t i = 0; i < leds; ++i)
           for (std::size_t j = 0; j < leds; ++j)
             for (std::size_t k = 0; k < leds; ++k)
-              if (i != j && j != k && k != i)
-                add_p3p(camera, {point(i), point(j), point(k)}, {plane[a], plane[b], plane[c]},
-                        poses);
+              if (i != j && j != k && k != i) {
+                const std::vector<cv::Point3d> three = {point(i), point(j), point(k)};
+                const std::vector<cv::Point2d> seen = {plane[a], plane[b], plane[c]};
+                add_facing(camera, three, seen, poses);
+                add_p3p(camera, three, seen, poses);
+              }
   return [poses = std::move(poses), next = std::size_t{0}]() mutable -> std::optional<Rigid3> {
     if (next == poses.size()) return std::nullopt;
     return poses[next++];

@@ -87,6 +87,7 @@ JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const 
     throw Error({"names " + std::to_string(cameras.size()) + " cameras", "[[camera]]",
                  "name " + std::to_string(kMaxCameras) + " at most"});
   association_.turns = !options.position_only;
+  if (cameras.size() == 1) association_.leds_that_place = 3;
   association_.fixed_noise = options.fixed_noise;
   for (const CameraConfig& camera : cameras) {
     cameras_.emplace_back(camera);
@@ -270,12 +271,18 @@ void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t ent
   replay_from_ = std::min(replay_from_, entry);
 }
 
-AcquisitionOptions JointMethod::acquisition_options(const HeadTrack& head, double slack_px) const {
+AcquisitionOptions JointMethod::acquisition_options(std::size_t head,
+                                                    const std::optional<Rigid3>& believed,
+                                                    double slack_px) const {
   AcquisitionOptions options;
   options.largest_rms_px += 1.5 * slack_px;
-  if (head.state) options.believed = head.state->room_from_head;
+  options.believed = believed;
   // Three dots always fit some pose; where there is but one camera, that has to do.
   options.least_dots = cameras_.size() == 1 ? 3 : 4;
+  if (known_by_facing(head)) {
+    options.facing_sigma_rad.y() = radians(30);
+    options.least_margin = 2;
+  }
   if (!options_.position_only) return options;
   options.least_dots = 2;
   options.facing_sigma_rad.setConstant(1e-3);
@@ -328,8 +335,10 @@ void JointMethod::look_for(std::size_t head, Time now) {
   if (seen.captured <= search.seen) return;  // the same reports prove nothing new
   search.seen = seen.captured;
   const HeadTrack& track = entries_[newest].after[head];
+  std::optional<Rigid3> tracked;
+  if (track.state) tracked = track.state->room_from_head;
   // Of several cameras those that agree are right.
-  const bool tolerant = may_contradict() && (!track.state || contradicted(head));
+  const bool tolerant = may_contradict() && (!tracked || contradicted(head));
   const double slack_px =
       std::max(disagreement_.sigma_px(), tolerant ? search.failed.tried_px() : 0);
   std::vector<CameraView> views;
@@ -338,13 +347,13 @@ void JointMethod::look_for(std::size_t head, Time now) {
       views.push_back(view_of(entries_[i], head,
                               std::chrono::abs(entries_[i].seen.captured - common), slack_px));
   search.look = Look{.search = HeadSearch(cameras_, std::move(views), leds_of_heads_[head],
-                                          acquisition_options(track, slack_px)),
+                                          acquisition_options(head, tracked, slack_px)),
                      .camera = seen.camera,
                      .captured = seen.captured,
+                     .tracked = tracked,
                      .slack_px = slack_px,
                      .tolerant = slack_px > disagreement_.sigma_px(),
                      .steps = pause >= kCheck && !search.rumour ? 1 : kAll};
-  if (track.state) search.look->tracked = track.state->room_from_head;
 }
 
 void JointMethod::go_on(std::size_t head) {
@@ -386,10 +395,10 @@ std::ptrdiff_t JointMethod::dots_tracked_by(std::size_t head) const {
 /// Whether its dots are nearly as well another's, which nobody tracks: where something is allowed
 /// for what cameras contradict each other, heads are not to be taken for each other.
 bool JointMethod::may_be_another(const Look& look, std::size_t head, const FoundHead& found) const {
-  AcquisitionOptions options = acquisition_options({}, look.slack_px);
-  const double clear_by = std::exchange(options.least_margin, 0);
   for (std::size_t other = 0; other < searches_.size(); ++other) {
     if (other == head || newest_heads()[other].state) continue;
+    AcquisitionOptions options = acquisition_options(other, {}, look.slack_px);
+    const double clear_by = std::exchange(options.least_margin, 0);
     const auto rival = find_head(cameras_, look.search.views(), leds_of_heads_[other], options);
     if (rival && rival->cost < found.cost + clear_by) return true;
   }

@@ -128,7 +128,9 @@ class JointMethod {
   bool stands_aside(std::size_t camera) const;
   void weigh_tracked(Time now);
   void weigh(const Look& look, std::size_t head);
-  AcquisitionOptions acquisition_options(const HeadTrack& head, double slack_px) const;
+  bool known_by_facing(std::size_t head) const;
+  AcquisitionOptions acquisition_options(std::size_t head, const std::optional<Rigid3>& believed,
+                                         double slack_px) const;
   std::ptrdiff_t dots_tracked_by(std::size_t head) const;
   bool may_be_another(const Look& look, std::size_t head, const FoundHead& found) const;
   bool dots_enough(const Look& look, std::size_t head) const;

@@ -55,6 +55,12 @@ bool JointMethod::contradicted(std::size_t head) const {
   return own < kFew && left > kLeftPerOwn * own;
 }
 
+/// One camera's dots of three LEDs fit up to four poses (P3P: Grunert 1841), of which one faces
+/// away by some 70 degrees, a metre nearer: the one is taken that faces the wall.
+bool JointMethod::known_by_facing(std::size_t head) const {
+  return cameras_.size() == 1 && leds_of_heads_[head].size() == 3;
+}
+
 /// Whether what was seen lately tells one LED from another: three of two cameras' dots always fit
 /// some pose, and so do two LEDs whichever they are. One camera alone has no more than three dots.
 bool JointMethod::sure(std::size_t head) const {
@@ -104,6 +110,7 @@ Mat6 JointMethod::information_now(std::size_t head) const {
 TrackingLevel JointMethod::level_now(std::size_t head) const {
   if (options_.position_only) return TrackingLevel::position;
   if (contradicted(head)) return TrackingLevel::held;
+  if (known_by_facing(head)) return TrackingLevel::bearing;
   constexpr double kFarTooLarge = 0.05;  // or too small: the place is wrong by as much
   if (std::abs(heads_look_larger()) > kFarTooLarge) return TrackingLevel::bearing;
   const TrackingLevel level = std::min(level_of(information_now(head)), TrackingLevel::bearing);

@@ -96,6 +96,21 @@ TEST(FindHead, labels_four_leds_from_one_camera_or_says_nothing) {
   EXPECT_GE(share.right, 120);
 }
 
+/// Where two solutions of P3P nearly meet, noise leaves it none.
+TEST(FindHead, knows_of_one_camera_and_three_leds_the_pose_that_faces_the_wall) {
+  const auto cameras = cameras_behind(1);
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    const Rigid3 head = random_head(random, radians(25), radians(12));
+    const auto views = views_of(cameras, head, kThreeLeds, 0.5, random);
+    const auto found = find_head(cameras, views, kThreeLeds, {.least_margin = 0});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->led_of_dot[0], (std::vector{0, 1, 2})) << i;
+    EXPECT_LT((found->fit.room_from_head.translation - head.translation).norm(), 0.12);
+    EXPECT_LT(angle_deg(found->fit.room_from_head, head), 5);
+  }
+}
+
 TEST(FindHead, works_for_sixteen_cameras) {
   const Share share = labelled(kThreeLeds, 16, 0.5, 20);
   EXPECT_EQ(share.right, 20);

@@ -358,6 +358,30 @@ TEST_F(JointMethodTest, goes_on_with_the_two_that_agree_when_a_third_is_bumped_t
     }
 }
 
+/// Of which three LEDs fit several poses, one of them facing the wall.
+TEST_F(JointMethodTest,
+       follows_by_one_camera_whoever_watches_the_wall_and_vouches_for_no_distance) {
+  configs_.pop_back();
+  for (const std::vector<Vec3>& leds : {kThreeLeds, kFourLeds}) {
+    heads_[0].leds_in_head = leds;
+    JointMethod method(configs_, heads_);
+    double worst_m = 0;
+    int found = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const Time time{milliseconds(10 * k)};
+      method.absorb(seen_by(0, {walking(0.01 * k)}, time));
+      method.update(time);
+      const auto pose = method.pose(0, time);
+      if (k < 200 || !pose) continue;
+      found += pose->level < TrackingLevel::held;
+      worst_m = std::max(worst_m, error_m(method, 0, time, walking(0.01 * k)));
+      EXPECT_EQ(pose->level == TrackingLevel::six_dof, leds.size() == 4) << name_of(pose->level);
+    }
+    EXPECT_EQ(found, 1800);
+    EXPECT_LT(worst_m, 0.08);
+  }
+}
+
 TEST_F(JointMethodTest, says_that_dots_enough_fit_no_head) {
   JointMethod method(configs_, heads_);
   heads_[0].leds_in_head = {{-0.3, 0, 0}, {0, 0.3, 0.1}, {0.2, 0, 0}};
