@@ -12,6 +12,7 @@ constexpr double kGap_s = 0.25;                     // without a sample; longer 
 constexpr double kSettling_s = 0.3;                 // of a filter that has just found the head
 constexpr double kQuiet_s = 1.5;                    // between two gestures
 constexpr double kHysteresis = 0.4;                 // of a turning point, in least swings
+constexpr double kKnown = 2. / 3;                   // the largest sigma of an angle, the same
 constexpr double kRemembered_s = 2;
 constexpr std::size_t kSwings = 6;
 
@@ -92,6 +93,12 @@ double confidence_of(const Row& row, double other_rad) {
   return (1 - other_rad / row.size_rad) * (0.4 * clear + 0.3 * row.evenness + 0.3 * row.fullness);
 }
 
+/// What a pose is off by about an axis, in room; 0 where the pose does not say.
+double sigma_about(const Vec3& axis_in_room, const PoseSample& sample) {
+  const Mat3 rotation_rad2 = sample.covariance.bottomRightCorner<3, 3>();
+  return std::sqrt(axis_in_room.dot(rotation_rad2 * axis_in_room));
+}
+
 }  // namespace
 
 // The newest time at which the swing under way had not yet come half of its way.
@@ -128,9 +135,17 @@ void Zigzag::absorb(double time_s, double angle_rad, double hysteresis_rad) {
   swings_.back() = {extreme_.angle_rad - turn_.angle_rad, crossing_s()};
 }
 
-void GestureDetector::Angle::absorb(double angle_rad, double share) {
+void GestureDetector::Angle::absorb(double now_s, double angle_rad, double hysteresis_rad) {
+  if (!(now_s - newest_s <= kGap_s)) *this = {now_s, now_s, angle_rad, angle_rad, {}};
+  const double share = 1 - std::exp(-(now_s - newest_s) / kSmoothing_s);
   once_rad += share * std::remainder(angle_rad - once_rad, 2 * kPi);
   twice_rad += share * (once_rad - twice_rad);
+  newest_s = now_s;
+  if (known(now_s)) zigzag.absorb(now_s, twice_rad, hysteresis_rad);
+}
+
+bool GestureDetector::Angle::known(double now_s) const {
+  return newest_s - began_s >= kSettling_s && now_s - newest_s <= kGap_s;
 }
 
 GestureDetector::GestureDetector(const Vec3& eye_in_head, const Rigid3& room_from_wall,
@@ -143,35 +158,14 @@ GestureDetector::GestureDetector(const Vec3& eye_in_head, const Rigid3& room_fro
   assert(options.largest_rate_hz > options.least_rate_hz && options.dwell_s > 0);
 }
 
-void GestureDetector::restart() {
-  last_.reset();
-  look_.reset();
-  yaw_swings_ = pitch_swings_ = {};
-}
-
 std::optional<GestureEvent> GestureDetector::absorb(const PoseSample& sample) {
   const Rigid3& pose = sample.room_from_head;
   if (sample.level > TrackingLevel::hybrid || (last_ && sample.capture_time <= *last_) ||
       !pose.rotation.coeffs().allFinite() || !pose.translation.allFinite())
     return std::nullopt;
-  const double now_s = seconds(sample.capture_time.time_since_epoch());
-  const double step_s = last_ ? seconds(sample.capture_time - *last_) : 0;
-  if (step_s > kGap_s) restart();
-  const Vec3 facing = pose.rotation * -Vec3::UnitZ();
-  const double yaw_rad = std::atan2(-facing.x(), -facing.z());
-  const double pitch_rad = std::asin(std::clamp(facing.y(), -1.0, 1.0));
-  if (!last_) {
-    began_s_ = now_s;
-    yaw_ = {yaw_rad, yaw_rad};
-    pitch_ = {pitch_rad, pitch_rad};
-  }
   last_ = sample.capture_time;
-  yaw_.absorb(yaw_rad, 1 - std::exp(-step_s / kSmoothing_s));
-  pitch_.absorb(pitch_rad, 1 - std::exp(-step_s / kSmoothing_s));
-  if (now_s - began_s_ < kSettling_s) return std::nullopt;
-  const double hysteresis_rad = kHysteresis * radians(options_.least_swing_deg);
-  yaw_swings_.absorb(now_s, yaw_.twice_rad, hysteresis_rad);
-  pitch_swings_.absorb(now_s, pitch_.twice_rad, hysteresis_rad);
+  const double now_s = seconds(sample.capture_time.time_since_epoch());
+  absorb_angles(now_s, sample);
   auto event = swing_event(now_s);
   if (!event) event = look_event(now_s, wall_from_room_ * (pose * eye_in_head_));
   if (event) {
@@ -181,10 +175,26 @@ std::optional<GestureEvent> GestureDetector::absorb(const PoseSample& sample) {
   return event;
 }
 
+// Turned by a small vector t, the head faces t x facing more: t's parts along these axes are what
+// pitch and yaw change by.
+void GestureDetector::absorb_angles(double now_s, const PoseSample& sample) {
+  const Vec3 facing = sample.room_from_head.rotation * -Vec3::UnitZ();
+  const double level = std::hypot(facing.x(), facing.z());
+  const Vec3 pitch_axis = facing.cross(Vec3::UnitY()) / level;
+  const Vec3 yaw_axis = (Vec3::UnitY() - facing.y() * facing) / (level * level);
+  const double least_rad = radians(options_.least_swing_deg);
+  const auto absorb = [&](Angle& angle, double angle_rad, const Vec3& axis_in_room) {
+    if (sigma_about(axis_in_room, sample) <= kKnown * least_rad)
+      angle.absorb(now_s, angle_rad, kHysteresis * least_rad);
+  };
+  absorb(yaw_, std::atan2(-facing.x(), -facing.z()), yaw_axis);
+  absorb(pitch_, std::atan2(facing.y(), level), pitch_axis);
+}
+
 std::optional<GestureEvent> GestureDetector::swing_event(double now_s) {
   for (const bool nod : {true, false}) {
-    const Zigzag& own = nod ? pitch_swings_ : yaw_swings_;
-    const Zigzag& other = nod ? yaw_swings_ : pitch_swings_;
+    const Zigzag& own = (nod ? pitch_ : yaw_).zigzag;
+    const Zigzag& other = (nod ? yaw_ : pitch_).zigzag;
     auto row = cyclic_row(own.swings(), now_s, options_);
     if (!row && nod) row = quick_nod(own.swings(), now_s, options_);
     const double other_rad = wavering_rad(other.swings(), now_s);
@@ -227,7 +237,8 @@ std::optional<GestureDetector::Hit> GestureDetector::looked_at(const Vec3& eye_i
 }
 
 std::optional<GestureEvent> GestureDetector::look_event(double now_s, const Vec3& eye_in_wall) {
-  const auto hit = looked_at(eye_in_wall);
+  const bool known = yaw_.known(now_s) && pitch_.known(now_s);
+  const auto hit = known ? looked_at(eye_in_wall) : std::nullopt;
   if (look_ && now_s - look_->last_on_s > options_.dwell_pause_s) look_.reset();
   if (!hit) return std::nullopt;
   if (!look_ || look_->target != hit->target) look_ = Look{hit->target, now_s};

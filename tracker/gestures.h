@@ -80,15 +80,21 @@ class GestureDetector {
                   std::vector<LookTarget> targets = {}, const GestureOptions& options = {});
 
   /// At most one event a sample. Samples below hybrid do not know where the head points and are
-  /// passed over, as are those that are not newer than the last; after a gap all begins anew.
+  /// passed over, as are those that are not newer than the last; after a gap all begins anew. One
+  /// that does not know one of both angles, as its covariance says, is passed over for that angle.
   std::optional<GestureEvent> absorb(const PoseSample& sample);
 
  private:
-  /// Low-passed twice.
+  /// How far the head is turned about one axis: low-passed twice.
   struct Angle {
+    double began_s = -1e300;  // times are of CLOCK_MONOTONIC
+    double newest_s = began_s;
     double once_rad = 0;
     double twice_rad = 0;
-    void absorb(double angle_rad, double share);
+    Zigzag zigzag;
+
+    void absorb(double now_s, double angle_rad, double hysteresis_rad);
+    bool known(double now_s) const;
   };
   struct Look {
     std::size_t target = 0;
@@ -103,7 +109,7 @@ class GestureDetector {
     double closeness = 0;
   };
 
-  void restart();
+  void absorb_angles(double now_s, const PoseSample& sample);
   std::optional<GestureEvent> swing_event(double now_s);
   std::optional<GestureEvent> look_event(double now_s, const Vec3& eye_in_wall);
   Vec3 facing_in_room() const;
@@ -114,10 +120,8 @@ class GestureDetector {
   std::vector<LookTarget> targets_;
   GestureOptions options_;
   std::optional<Time> last_;
-  double began_s_ = 0;        // times are of CLOCK_MONOTONIC
   double quiet_until_s_ = 0;  // the nod or shake that was told goes on
   Angle yaw_, pitch_;
-  Zigzag yaw_swings_, pitch_swings_;
   std::optional<Look> look_;
 };
 

@@ -8,7 +8,9 @@
 
 #include "core/random.h"
 #include "simulator/person.h"
+#include "tracker/camera_model.h"
 #include "tracker/point_fit.h"
+#include "tracker/tracker.h"
 
 namespace vindu {
 namespace {
@@ -233,6 +235,73 @@ TEST(Gestures, CountOnlyWhereTheRotationIsKnown) {
   for (const TrackingLevel level :
        {TrackingLevel::position, TrackingLevel::bearing, TrackingLevel::held, TrackingLevel::lost})
     EXPECT_THAT(nods_at_level(level), IsEmpty());
+}
+
+/// Of a nod, a shake and a look at the vase, by a head whose turn about that axis is known so well.
+std::vector<Gesture> found_with_sigma(const Vec3& axis_in_room, double sigma_deg) {
+  GestureDetector detector(kHead.eye_in_head, kRoomFromWall, {{"wall", {0, 0, 0}, 0.5}});
+  const Movement nod{Gesture::nod, radians(12), 2, 1, 3}, shake{Gesture::shake, radians(12), 2, 4};
+  std::vector<Gesture> kinds;
+  for (double t_s = 0; t_s < 6; t_s += 1 / kRate_hz) {
+    PoseSample sample = sample_of({nod.at(t_s) * shake.at(t_s), standing().translation}, t_s);
+    sample.level = TrackingLevel::hybrid;
+    sample.covariance.bottomRightCorner<3, 3>() =
+        std::pow(radians(sigma_deg), 2) * axis_in_room * axis_in_room.transpose();
+    if (const auto event = detector.absorb(sample)) kinds.push_back(event->gesture);
+  }
+  return kinds;
+}
+
+TEST(Gestures, CountOnlyWhereTheAngleThatTheyAreOfIsKnown) {
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())})
+    EXPECT_THAT(found_with_sigma(axis, 3),
+                ElementsAre(Gesture::look, Gesture::nod, Gesture::shake));
+  EXPECT_THAT(found_with_sigma(Vec3::UnitX(), 5), ElementsAre(Gesture::shake));
+  EXPECT_THAT(found_with_sigma(Vec3::UnitY(), 5), ElementsAre(Gesture::nod));
+  EXPECT_THAT(found_with_sigma(Vec3::UnitZ(), 10),
+              ElementsAre(Gesture::look, Gesture::nod, Gesture::shake));
+}
+
+/// What a tracker of two cameras tells of a head on a walk, which may nod or shake meanwhile.
+std::vector<Gesture> found_by_tracker(const std::vector<Vec3>& leds_in_head, std::uint64_t seed,
+                                      const std::vector<Movement>& movements) {
+  HeadConfig head;
+  head.leds_in_head = leds_in_head;
+  std::vector<CameraConfig> cameras(2);
+  cameras[0].room_from_camera = look_at({-1, 2.3, 5}, {0, 1.65, 2});
+  cameras[1].room_from_camera = look_at({1, 2.3, 5}, {0, 1.65, 2});
+  Tracker tracker(cameras, std::vector{head}, kRoomFromWall);
+  GestureDetector detector(head.eye_in_head, kRoomFromWall);
+  const Person person(head, kRoomFromWall, {.seed = seed});
+  std::vector<Gesture> kinds;
+  for (double t_s = 0; t_s < 20; t_s += 0.01) {
+    const Time time{from_seconds(t_s)};
+    Rigid3 pose = person.room_from_head(time);
+    for (const Movement& movement : movements) pose.rotation = pose.rotation * movement.at(t_s);
+    for (const int camera : {0, 1}) {
+      const CameraModel model(cameras[static_cast<std::size_t>(camera)]);
+      Observation seen{camera, time, {}};
+      for (const Vec3& led : leds_in_head)
+        if (const auto raw_px = model.project(model.camera_from_room() * (pose * led)))
+          seen.dots.push_back({std::round(raw_px->x()), std::round(raw_px->y()), 3});
+      tracker.absorb(seen);
+    }
+    tracker.track(time, time);
+    for (const PoseSample& sample : tracker.poses())
+      if (const auto event = detector.absorb(sample)) kinds.push_back(event->gesture);
+  }
+  return kinds;
+}
+
+TEST(Gestures, OfATrackedHeadAreFoundUnlessItsLedsDoNotShowThem) {
+  const Movement nod{Gesture::nod, radians(10), 2, 5.3, 2};
+  const Movement shake{Gesture::shake, radians(15), 2, 12.3, 2};
+  EXPECT_THAT(found_by_tracker(kHead.leds_in_head, 1, {nod, shake}),
+              ElementsAre(Gesture::nod, Gesture::shake));
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    EXPECT_THAT(found_by_tracker({{-0.09, 0, 0}, {0.09, 0, 0}, {0, 0, 0}}, seed, {}), IsEmpty());
+    EXPECT_THAT(found_by_tracker({{-0.09, 0.03, -0.09}, {0, 0, 0}}, seed, {}), IsEmpty());
+  }
 }
 
 TEST(Gestures, OldAndBrokenSamplesAreIgnored) {
