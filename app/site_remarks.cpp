@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "tracker/calibration/layout.h"
 #include "tracker/tracker.h"
@@ -47,10 +51,43 @@ std::string start_remark(const Site& site) {
 std::string likeness_remark(const HeadConfig& one, const HeadConfig& other) {
   const double apart_mm = layouts_apart_mm(one.leds_in_head, other.leds_in_head);
   if (apart_mm >= kAmbiguous_mm) return "";
+  const bool few = std::min(one.leds_in_head.size(), other.leds_in_head.size()) < 3;
+  return fmt::format("the LEDs of {} fit those of {} to {:.1f} mm: who is who cannot be told. {}.",
+                     one.name, other.name, apart_mm,
+                     few ? "Give each three LEDs or more, in other places on the one than on the "
+                           "other"
+                         : "Move one LED by a few centimetres");
+}
+
+/// Root mean square of the LEDs' distances from the line that lies best among them.
+double off_line_mm(const std::vector<Vec3>& leds_in_head) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& led : leds_in_head) middle += led / static_cast<double>(leds_in_head.size());
+  Mat3 scatter_m2 = Mat3::Zero();
+  for (const Vec3& led : leds_in_head) scatter_m2 += (led - middle) * (led - middle).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(scatter_m2, Eigen::EigenvaluesOnly);
+  const double across_m2 = std::max(0.0, axes.eigenvalues().head<2>().sum());
+  return 1e3 * std::sqrt(across_m2 / static_cast<double>(leds_in_head.size()));
+}
+
+/// The remedy for LEDs of one helmet that are too alike, or in line.
+const char* better_leds(const HeadConfig& head) {
+  return head.leds_in_head.size() == 2 ? "Add a third LED, a few centimetres off their line"
+                                       : "Move one LED by a few centimetres";
+}
+
+/// Of LEDs in one line; "" where they are not, or the rotation is not asked for.
+std::string line_remark(const Site& site, const HeadConfig& head) {
+  constexpr double kInLine_mm = 5;  // of two cameras at 3.3 m, that is 2 degrees of a nod
+  if (site.tracking.mode == "position" || head.leds_in_head.size() < 2) return "";
+  const double off_mm = off_line_mm(head.leds_in_head);
+  if (off_mm >= kInLine_mm) return "";
   return fmt::format(
-      "the LEDs of {} fit those of {} to {:.1f} mm: who is who cannot be told. Move one LED by a "
-      "few centimetres.",
-      one.name, other.name, apart_mm);
+      "the {} LEDs of {} lie in one line, to {:.1f} mm: how the head turns about it is hardly "
+      "seen. "
+      "There are no nods where it runs from ear to ear, and the picture is that of hybrid. {}{}.",
+      head.leds_in_head.size(), head.name, off_mm, better_leds(head),
+      head.leds_in_head.size() == 2 ? "" : " off the line");
 }
 
 }  // namespace
@@ -61,8 +98,8 @@ std::string layout_remark(const HeadConfig& head) {
   if (ambiguity.rigid_mm >= kAmbiguous_mm) return "";
   return fmt::format(
       "a wrong labelling of the {} LEDs of {} fits to {:.1f} mm; only that heads are upright tells "
-      "them apart. Move one LED by a few centimetres.",
-      head.leds_in_head.size(), head.name, ambiguity.rigid_mm);
+      "them apart. {}.",
+      head.leds_in_head.size(), head.name, ambiguity.rigid_mm, better_leds(head));
 }
 
 std::vector<std::string> remarks_on(const Site& site) {
@@ -70,6 +107,7 @@ std::vector<std::string> remarks_on(const Site& site) {
   const bool starts = remarks.front().empty();
   for (const HeadConfig& head : site.heads) {
     remarks.push_back(layout_remark(head));
+    remarks.push_back(line_remark(site, head));
     if (starts) remarks.push_back(leds_remark(site, head));
   }
   for (std::size_t a = 0; a < site.heads.size(); ++a)

@@ -12,6 +12,7 @@ using namespace testing;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 using CheckCommand = AppTest;
@@ -103,17 +104,40 @@ TEST_F(CheckCommand, WarnsOfTwoHelmetsThatCannotBeTold) {
       "[[head]]\nname = \"dora\"\nleds_m = [[-0.14, 0, -0.05], [0, 0, 0], [0.10, 0.06, -0.15]]\n";
   EXPECT_THAT(vindu({"check", write("equal.toml", wall + anna + carl)}).out,
               HasSubstr("the LEDs of anna fit those of carl to 0.0 mm"));
+  const std::string two = "[[head]]\nname = \"two\"\nleds_m = [[-0.10, 0, 0], [0.10, 0, 0]]\n";
+  EXPECT_THAT(vindu({"check", write("few.toml", wall + anna + two)}).out,
+              HasSubstr("who is who cannot be told. Give each three LEDs or more"));
   EXPECT_THAT(vindu({"check", write("unlike.toml", wall + anna + dora)}).out,
-              ::testing::Not(HasSubstr("fit those of")));
+              Not(HasSubstr("fit those of")));
+}
+
+/// The wall that comes with Vindu, with other LEDs and that [tracking].
+std::string wall_with(const std::string& leds, const std::string& tracking = "") {
+  std::string text = bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
+  const std::size_t begin = text.find("leds_m = ");
+  text.replace(begin, text.find('\n', begin) - begin, "leds_m = " + leds);
+  return text + "[tracking]\n" + tracking;
+}
+
+TEST_F(CheckCommand, WarnsOfLedsInOneLineAndSaysWhatHelps) {
+  const auto said_of = [&](const std::string& leds, const std::string& tracking = "") {
+    return vindu({"check", "--json", write("wall.toml", wall_with(leds, tracking))}).out;
+  };
+  const std::string two = "[[-0.09, 0, 0], [0.09, 0, 0]]";
+  EXPECT_THAT(said_of("[[-0.09, 0, 0], [0.09, 0, 0], [0.02, 0.006, 0]]"),
+              AllOf(HasSubstr("the 3 LEDs of head lie in one line, to 2.8 mm"),
+                    HasSubstr("Move one LED by a few centimetres off the line")));
+  EXPECT_THAT(said_of(two), AllOf(HasSubstr("the 2 LEDs of head lie in one line, to 0.0 mm"),
+                                  HasSubstr("Add a third LED, a few centimetres off their line"),
+                                  Not(HasSubstr("Move one LED"))));
+  EXPECT_THAT(said_of(two, "mode = \"position\"\n"), Not(HasSubstr("in one line")));
+  EXPECT_THAT(said_of("[[-0.09, 0, 0], [0.09, 0, 0], [0.02, 0.02, 0]]"),
+              Not(HasSubstr("in one line")));
 }
 
 TEST_F(CheckCommand, WarnsOfAHelmetThatTheTrackingCannotUse) {
-  const std::string wall = bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
   const auto said_of = [&](const std::string& leds, const std::string& tracking) {
-    std::string text = wall;
-    const std::size_t begin = text.find("leds_m = ");
-    text.replace(begin, text.find('\n', begin) - begin, "leds_m = " + leds);
-    const std::string file = write("wall.toml", text + "[tracking]\n" + tracking);
+    const std::string file = write("wall.toml", wall_with(leds, tracking));
     const ProcessResult result = vindu({"check", file}), json = vindu({"check", file, "--json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out.find("warning: ") == std::string::npos,
@@ -126,7 +150,7 @@ TEST_F(CheckCommand, WarnsOfAHelmetThatTheTrackingCannotUse) {
   EXPECT_THAT(said_of(two, "mode = \"six-dof\"\n"), HasSubstr("needs 3 LEDs or more"));
   EXPECT_THAT(said_of(two, "method = \"thesis\"\n"),
               HasSubstr("the thesis' method needs three LEDs, not 2"));
-  EXPECT_THAT(said_of(one, "mode = \"position\"\n"), ::testing::Not(HasSubstr("warning")));
+  EXPECT_THAT(said_of(one, "mode = \"position\"\n"), Not(HasSubstr("warning")));
 }
 
 TEST_F(CheckCommand, FailsWhereTheDrawingCannotBeWritten) {
