@@ -15,6 +15,10 @@ namespace vindu::app {
 /// its index. Where one was bumped, others may seem to stand aside as well, by less.
 std::optional<std::size_t> camera_aside(const std::vector<CameraHealth>& health);
 
+/// From which share on heads that look larger or smaller than they should tell that something is
+/// wrong. Less is usual, or with helmets of two LEDs what the figure strays by itself.
+double size_that_counts(const Site& site);
+
 class CameraWarnings {
  public:
   explicit CameraWarnings(const Site& site);
@@ -51,6 +55,7 @@ class CameraWarnings {
   void look_at_misfit(const Tracker& tracker, Time now);
 
   std::vector<Camera> cameras_;
+  double size_that_counts_;
   Time looked_{};
   Complaint nothing_fits_, contradiction_, size_;
 };

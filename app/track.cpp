@@ -78,7 +78,7 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
   if (tracker.nothing_fits()) line += "  the dots fit no head!";
   if (const double px = tracker.disagreement_px(); px >= 1)
     line += fmt::format("  cameras contradict each other by {:.0f} px!", px);
-  if (const double larger = tracker.heads_look_larger(); std::abs(larger) > 0.01)
+  if (const double larger = tracker.heads_look_larger(); std::abs(larger) > size_that_counts(site))
     line += fmt::format("  sizes are off by {:.1f} %!", 100 * larger);
   for (const CameraState& state : states)
     if (!state.trouble.empty()) line += fmt::format("  {}: {}", state.name, state.trouble);

@@ -103,6 +103,39 @@ TEST(CameraWarningsOfThree, NameTheOneThatStandsAsideOrWasMoved) {
   EXPECT_THAT(said_of_three_cameras(60), HasSubstr("third: was moved"));
 }
 
+/// Of a helmet of two LEDs that turns left and right, and whose LEDs are so many times as far apart
+/// as the wall file has it.
+std::string said_of_two_leds(double times) {
+  Site site = two_cameras();
+  site.heads.front().leds_in_head = {{-0.09, 0.03, -0.09}, {0, 0, 0}};
+  Tracker tracker(site.cameras, site.heads, Rigid3{});
+  CameraWarnings warnings(site);
+  ::testing::internal::CaptureStderr();
+  for (Time time{}; time < Time{std::chrono::seconds(40)}; time += std::chrono::milliseconds(10)) {
+    const double t_s = seconds(time.time_since_epoch());
+    const Rigid3 pose{rotation_of({0, 0.6 * std::sin(0.7 * t_s), 0}),
+                      {0.25 * std::sin(1.3 * t_s), 1.65, 2}};
+    for (const int camera : {0, 1}) {
+      const CameraModel model(site.cameras[static_cast<std::size_t>(camera)]);
+      Observation seen{camera, time, {}};
+      for (const Vec3& led_in_head : site.heads.front().leds_in_head) {
+        const Vec2 raw_px =
+            *model.project(model.camera_from_room() * (pose * (times * led_in_head)));
+        seen.dots.push_back({std::round(raw_px.x()), std::round(raw_px.y()), 3});
+      }
+      tracker.absorb(seen);
+    }
+    tracker.track(time, time);
+    warnings.look(tracker, time);
+  }
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(CameraWarningsOfTwoLeds, SayWhatNoiseDoesNotExplain) {
+  EXPECT_THAT(said_of_two_leds(1), IsEmpty());
+  EXPECT_THAT(said_of_two_leds(1.1), HasSubstr("% larger than where the cameras see them"));
+}
+
 TEST_F(CameraWarningsTest, SayThatAllIsWellWhenItHasBeenForHalfAMinute) {
   ASSERT_TRUE(bad_.nothing_fits());
   EXPECT_THAT(said(bad_, 0, 1), HasSubstr(kNothingFits));
