@@ -38,10 +38,12 @@ PoseLines::PoseLines(const Site& site, std::vector<LookTarget> targets)
     : site_(site), gestures_(site, std::move(targets)) {}
 
 std::vector<std::string> PoseLines::news(const Tracker& tracker,
-                                         const std::optional<PoseSample>& followed,
+                                         const std::optional<PoseSample>& followed, Time now,
                                          Duration shift) {
   std::vector<std::string> lines;
   add_poses(tracker, followed, shift, lines);
+  add_misfit(tracker, now, shift, lines);
+  add_health(tracker, now, shift, lines);
   events_ = gestures_.news(tracker);
   for (const GestureEvent& event : events_) lines.push_back(json_of(event, shift));
   for (const ButtonChange& change : tracker.button_changes())
@@ -59,29 +61,36 @@ void PoseLines::add_poses(const Tracker& tracker, const std::optional<PoseSample
     said_.insert_or_assign(pose.object, pose);
     const bool shown = followed && followed->object == pose.object;
     lines.push_back(app::json_of(pose, tracker.eye_in_wall(pose), shown, shift));
-    add_health(tracker, pose.time, shift, lines);
   }
 }
 
-void PoseLines::add_health(const Tracker& tracker, Time time, Duration shift,
+void PoseLines::add_misfit(const Tracker& tracker, Time now, Duration shift,
                            std::vector<std::string>& lines) {
   const Misfit misfit{std::lround(tracker.disagreement_px()),
                       std::lround(200 * tracker.heads_look_larger())};
   if (std::exchange(misfit_, misfit) != misfit)
     lines.push_back(fmt::format(R"({{"t_ns":{},"disagreement_px":{},"heads_look_larger":{:.3f}}})",
-                                nanoseconds(time + shift), misfit.disagreement_px,
+                                nanoseconds(now + shift), misfit.disagreement_px,
                                 0.005 * static_cast<double>(misfit.half_percents)));
-  const auto cameras = tracker.camera_health();
+}
+
+void PoseLines::add_health(const Tracker& tracker, Time now, Duration shift,
+                           std::vector<std::string>& lines) {
+  auto cameras = tracker.camera_health();
+  cameras.resize(site_.cameras.size());  // the thesis' method knows nothing of them
   health_.resize(cameras.size());
+  const auto heard = tracker.heard(now);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const CameraHealth& camera = cameras[i];
-    const Health health{camera.moved, camera.device_time, camera.masks,
-                        steadily_rounded(camera.aside_px, health_[i].aside_px)};
+    const double before_px = health_[i] ? health_[i]->aside_px : 0;
+    const Health health{heard[i], camera.moved, camera.device_time, camera.masks,
+                        steadily_rounded(camera.aside_px, before_px)};
     if (std::exchange(health_[i], health) == health) continue;
-    lines.push_back(fmt::format(
-        R"({{"t_ns":{},"camera":{},"moved":{},"device_time":{},"masks":{},"aside_px":{}}})",
-        nanoseconds(time + shift), json_text(site_.cameras[i].name), health.moved,
-        health.device_time, health.masks, health.aside_px));
+    lines.push_back(
+        fmt::format(R"({{"t_ns":{},"camera":{},"heard":{},"moved":{},"device_time":{},"masks":{},)"
+                    R"("aside_px":{}}})",
+                    nanoseconds(now + shift), json_text(site_.cameras[i].name), health.heard,
+                    health.moved, health.device_time, health.masks, health.aside_px));
   }
 }
 

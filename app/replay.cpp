@@ -190,7 +190,7 @@ int track(const ReplayCommand& command, const RecordingSummary& summary) {
     parts.add(now, pose, solve.pause());
     path.add(tracker, pose, now);
     if (command.track)
-      for (const std::string& line : lines.news(tracker, pose, -pace.shift)) put_line(line);
+      for (const std::string& line : lines.news(tracker, pose, now, -pace.shift)) put_line(line);
     if (ticks.now() >= summary.last) return end();
     if (const auto next = ahead.silent_until(ticks.now())) ticks.advance_to(*next);
   }

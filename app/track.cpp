@@ -178,7 +178,7 @@ int track(const TrackCommand& command) {
     const auto pose = tracker.track(now, now + ahead);
     if (!terminal) warnings.look(tracker, now);  // else they stand in the status line
     if (publisher) publisher->publish(tracker, pose, clock.now());
-    for (const std::string& line : lines.news(tracker, pose, {}))
+    for (const std::string& line : lines.news(tracker, pose, now, {}))
       if (command.json) std::puts(line.c_str());
     for (const GestureEvent& event : lines.events()) {
       if (publisher) publisher->publish(message_of(event, host_name()));

@@ -50,10 +50,12 @@ Tracker::Tracker(std::span<const CameraConfig> cameras, std::span<const HeadConf
       heads_(heads.begin(), heads.end()),
       wall_from_room_(inverse(room_from_wall)),
       buttons_(cameras.size(), 0),
+      reported_(cameras.size()),
       method_(method_named(config, cameras, heads)) {}
 
 void Tracker::absorb(const Observation& observation) {
   ++counts_.reports;
+  reported_[static_cast<std::size_t>(observation.camera)] = observation.arrival;
   note_buttons(observation);
   std::visit([&](auto& method) { method.absorb(observation); }, method_);
 }
@@ -161,6 +163,13 @@ Vec3 Tracker::eye_in_wall(const PoseSample& pose) const {
 std::vector<CameraHealth> Tracker::camera_health() const {
   const auto* joint = std::get_if<JointMethod>(&method_);
   return joint ? joint->health() : std::vector<CameraHealth>{};
+}
+
+std::vector<bool> Tracker::heard(Time now) const {
+  constexpr Duration kSilent = std::chrono::seconds(1);
+  std::vector<bool> heard;
+  for (const auto& arrival : reported_) heard.push_back(arrival && now - *arrival < kSilent);
+  return heard;
 }
 
 double Tracker::disagreement_px() const {

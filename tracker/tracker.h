@@ -71,6 +71,8 @@ class Tracker {
   const TrackerCounts& counts() const { return counts_; }
   /// In the order of the cameras; empty for the thesis' method, which knows nothing of that.
   std::vector<CameraHealth> camera_health() const;
+  /// Which cameras have reported, dots or none, within the second before a time; in their order.
+  std::vector<bool> heard(Time now) const;
   /// By how much the cameras contradict each other (JointMethod); 0 for the thesis' method.
   double disagreement_px() const;
   double heads_look_larger() const;  ///< the same; 0
@@ -90,6 +92,7 @@ class Tracker {
   std::vector<HeadConfig> heads_;
   Rigid3 wall_from_room_;
   std::vector<std::uint16_t> buttons_;                         // by camera, of the last report
+  std::vector<std::optional<Time>> reported_;                  // the last one's arrival, by camera
   std::vector<ButtonChange> coming_changes_, button_changes_;  // of the next frame, of the last
   std::variant<ThesisMethod, JointMethod> method_;
   std::vector<PoseSample> poses_;

@@ -11,6 +11,7 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ContainsRegex;
 using ::testing::Each;
+using ::testing::ElementsAre;
 using ::testing::Ge;
 using ::testing::HasSubstr;
 using ::testing::Le;
@@ -39,8 +40,22 @@ TEST_F(TrackCommand, PrintsPosesAndWhatItLearnsOfTheCamerasAsJson) {
   EXPECT_THAT(poses.back(), ContainsRegex(R"("sigma_m":0\.00.*,"followed":true})"));
   for (std::size_t i = 1; i < poses.size(); ++i)
     EXPECT_GT(time_ns(poses[i]), time_ns(poses[i - 1]));
-  EXPECT_THAT(lines_of(result.out),
-              Contains(HasSubstr(R"("camera":"left","moved":false,"device_time":true)")));
+  EXPECT_THAT(
+      lines_of(result.out),
+      Contains(HasSubstr(R"("camera":"left","heard":true,"moved":false,"device_time":true)")));
+}
+
+TEST_F(TrackCommand, HasALineForACameraThatIsNotThere) {
+  const std::string file =
+      write("ghost.toml", bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml") +
+                              "\n[[camera]]\nname = \"ghost\"\nsource = \"wiimote\"\n"
+                              "address = \"00:1f:c5:99:99:99\"\n"
+                              "position_m = [0, 2.3, 5]\nlook_at_m = [0, 1.65, 2]\n");
+  const ProcessResult result = vindu({"track", "--json", "--seconds", "2", "--wall", file});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(lines_with(result.out, R"("camera":"ghost")"),
+              ElementsAre(HasSubstr(R"("camera":"ghost","heard":false)")));
+  EXPECT_THAT(result.out, HasSubstr(R"("camera":"left","heard":true)"));
 }
 
 TEST_F(TrackCommand, SaysWhichOfTwoHeadsIsFollowed) {

@@ -83,6 +83,13 @@ TEST_F(TrackerTest, counts_reports_frames_and_losses_by_reason) {
   EXPECT_EQ(counts.frames_lost_by_reason[static_cast<std::size_t>(NoPose::too_few_dots)], 1u);
 }
 
+TEST_F(TrackerTest, knows_which_cameras_report_though_they_see_no_dots) {
+  Tracker tracker(cameras_, heads_, room_from_wall_);
+  tracker.absorb({.camera = 1, .arrival = Time{} + milliseconds(10), .dots = {}});
+  EXPECT_EQ(tracker.heard(Time{} + milliseconds(20)), (std::vector{false, true}));
+  EXPECT_EQ(tracker.heard(Time{} + milliseconds(1010)), (std::vector{false, false}));
+}
+
 TEST_F(TrackerTest, tracks_by_the_way_of_the_thesis_that_the_mode_names) {
   const auto level_in_mode = [&](const std::string& mode) {
     Tracker tracker(cameras_, heads_, room_from_wall_, {.method = "thesis", .mode = mode});
