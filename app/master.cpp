@@ -228,6 +228,7 @@ class MasterRun {
     touch_.hear(now);
     const EyeNow eye = eyes_->at(now, photon);
     eye_in_wall_ = eye.eye_in_wall;
+    const std::optional<TouchPage>& page = page_.at(now);
     const FrameState state = {
         .photon_time = photon,
         .eye_in_wall = still_.at(eye, stage.corners_in_wall(), now),
@@ -235,10 +236,11 @@ class MasterRun {
         .animation_time_s = stage.plays() ? seconds(now - stage.clip_start) : 0,
         .clip = stage.clip,
         .mode = eye.mode,
-        .overlays = (asked_.overlay ? std::uint32_t{kStatistics} : 0) |
+        .overlays = (asked_.overlay && !page ? std::uint32_t{kStatistics} : 0) |
                     (captures_.empty() ? 0 : std::uint32_t{kKeepPicture}),
         .pattern = asked_.pattern,
-        .blank = asked_.blank};
+        .blank = asked_.blank && !page,
+        .touch_page = page};
     if (wall_.due(state, now))
       begin(state, eye, now);
     else
@@ -328,6 +330,9 @@ class MasterRun {
       case Verb::blank:
         note(command, asked_);
         break;
+      case Verb::touch_page:
+        page_.hear(command, clock_.now());
+        break;
     }
     reply(command, true, "");
   }
@@ -350,6 +355,7 @@ class MasterRun {
   std::unique_ptr<RemoteEye> tracked_;  // cameras are opened once, by the mode track
   EyeSource* eyes_ = nullptr;
   StillEye still_{site_};
+  PageOfConsole page_;
   std::vector<CommandMessage> captures_;  // for the next frame
   struct Captured {
     CapturedFrame frame;

@@ -83,12 +83,12 @@ std::string json_of(const WallNow& wall) {
   const std::string heard = wall.heard_tracker();
   return fmt::format(
       R"({{"good": {}, "complaints": [{}], "master": {}, "epoch": {}, "frame": {}, "fps": {:.2f}, )"
-      R"("pattern": {}, "blank": {}, "active_tiles": {}, "report": {}, )"
+      R"("pattern": {}, "blank": {}, "touch_page": {}, "active_tiles": {}, "report": {}, )"
       R"("trackers": [{}], "heard_tracker": {}, "tiles": [{}]}})",
       wall.good(), complaints, wall.master ? json_text(wall.master->host) : "null", wall.epoch,
       wall.frame, wall.frames_per_s, json_text(std::string(name_of(wall.pattern))), wall.blank,
-      wall.active_tiles, json_of(wall.report), trackers, heard.empty() ? "null" : json_text(heard),
-      tiles);
+      wall.touch_page, wall.active_tiles, json_of(wall.report), trackers,
+      heard.empty() ? "null" : json_text(heard), tiles);
 }
 
 void print(const StatusCommand& command, const WallNow& wall) {

@@ -19,7 +19,7 @@
 namespace vindu {
 
 /// Two Vindus understand each other when this is equal; it names every topic.
-constexpr int kProtocolVersion = 4;
+constexpr int kProtocolVersion = 5;
 
 /// Master to tiles, repeated: whole and idempotent, the newest is all that a tile needs.
 struct FrameMessage {
@@ -158,7 +158,7 @@ struct EventMessage {
   std::string text{};  ///< "nod", "shake"; of picks what is looked at; of keys "Home"
 };
 
-enum class Verb { show, mode, go_to, pattern, blank, stop, overlay, clip, capture };
+enum class Verb { show, mode, go_to, pattern, blank, stop, overlay, clip, capture, touch_page };
 
 constexpr std::size_t kLongestArgument = 1023;  ///< of a command, and of its clip
 
@@ -169,7 +169,8 @@ struct CommandMessage {
   Verb verb = Verb::show;
   std::string tile{};  ///< empty: the whole wall
   std::string argument{};
-  std::string clip{};  ///< of Verb::show: its name or number; empty: the first
+  std::string clip{};                     ///< of Verb::show: its name or number; empty: the first
+  std::optional<TouchPage> touch_page{};  ///< of Verb::touch_page; empty: none any more
 };
 
 struct AnswerMessage {

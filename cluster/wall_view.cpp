@@ -125,6 +125,7 @@ std::string master_line(const WallNow& wall) {
     text += fmt::format(", eye {}", name_of(wall.report->level));
   if (wall.pattern != Pattern::none) text += fmt::format(", pattern {}", name_of(wall.pattern));
   if (wall.blank) text += ", blank";
+  if (wall.touch_page) text += ", points to be touched";
   return text + "\n";
 }
 
@@ -223,6 +224,7 @@ void WallView::hear(const FrameMessage& frame, Time now) {
   now_.frame = frame.newest.number;
   now_.pattern = frame.newest.pattern;
   now_.blank = frame.newest.blank;
+  now_.touch_page = frame.newest.touch_page.has_value();
   now_.active_tiles = frame.active_tiles;
   const std::pair seen(content_hash_of(frame.newest), frame.scene_revision);
   if (std::exchange(seen_, seen) != seen) changed_ = now;

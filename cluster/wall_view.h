@@ -39,6 +39,7 @@ struct WallNow {
   std::uint64_t frame = 0;                ///< newest; 0: none was heard
   Pattern pattern = Pattern::none;        ///< of that frame
   bool blank = false;                     ///< the same
+  bool touch_page = false;                ///< the same: it shows one
   double frames_per_s = 0;                ///< over the last seconds
   bool still = false;                     ///< what is seen has not changed for half a second
   std::uint32_t active_tiles = 0;         ///< in the frame lock

@@ -17,6 +17,23 @@ class Fnv1a {
   void add(const Vec3& value) {
     for (const double part : value) add(part);
   }
+  void add(const std::string& text) {
+    add(std::uint64_t{text.size()});
+    for (const char letter : text) add(static_cast<std::uint64_t>(letter));
+  }
+  void add(const std::optional<TouchPage>& page) {
+    add(std::uint64_t{page.has_value()});
+    if (!page) return;
+    add(std::uint64_t{page->points.size()});
+    for (const TouchPage::Point& point : page->points) {
+      add(point.x_in_wall);
+      add(point.tile);
+    }
+    add(std::uint64_t{page->done});
+    add(page->held);
+    add(page->remark);
+    add(page->ring_m);
+  }
   /// The model as the eye sees it.
   void add_view(const FrameState& state) {
     add(state.eye_in_wall);
@@ -43,6 +60,7 @@ std::uint64_t hash_of(const FrameState& state) {
   hash.add(std::uint64_t{state.overlays});
   hash.add(static_cast<std::uint64_t>(state.pattern));
   hash.add(std::uint64_t{state.blank});
+  hash.add(state.touch_page);
   return hash.value();
 }
 
@@ -51,12 +69,11 @@ std::uint64_t content_hash_of(const FrameState& state) {
   hash.add(std::uint64_t{state.overlays});
   hash.add(std::uint64_t{state.blank});
   if (state.blank) return hash.value();
-  hash.add(static_cast<std::uint64_t>(state.pattern));
+  hash.add(state.touch_page);
+  if (!state.touch_page) hash.add(static_cast<std::uint64_t>(state.pattern));
   if (shows_model(state)) hash.add_view(state);
-  if (state.pattern == Pattern::eye) hash.add(state.eye_in_wall);
-  const bool moves =
-      state.overlays != 0 || state.pattern == Pattern::counter || state.pattern == Pattern::bar;
-  if (moves) hash.add(state.number);
+  if (!state.touch_page && state.pattern == Pattern::eye) hash.add(state.eye_in_wall);
+  if (state.overlays != 0 || shows_number(state)) hash.add(state.number);
   return hash.value();
 }
 

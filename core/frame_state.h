@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "core/clock.h"
 #include "core/pattern.h"
 #include "core/rigid3.h"
+#include "core/touch_page.h"
 
 namespace vindu {
 
@@ -40,12 +42,20 @@ struct FrameState {
   Mode mode = Mode::track;
   std::uint32_t overlays = 0;
   Pattern pattern = Pattern::none;
-  bool blank = false;  ///< black, whatever else is said here
+  bool blank = false;                     ///< black, whatever else is said here
+  std::optional<TouchPage> touch_page{};  ///< in place of model and pattern
 };
 
 /// Else the frame needs no scene.
 inline bool shows_model(const FrameState& state) {
-  return !state.blank && (state.pattern == Pattern::none || state.pattern == Pattern::counter);
+  return !state.blank && !state.touch_page &&
+         (state.pattern == Pattern::none || state.pattern == Pattern::counter);
+}
+
+/// Whether the frame's number stands in its picture.
+inline bool shows_number(const FrameState& state) {
+  return !state.blank && !state.touch_page &&
+         (state.pattern == Pattern::counter || state.pattern == Pattern::bar);
 }
 
 /// 64-bit FNV-1a over every field's bytes, little endian: two tiles with one hash draw the same

@@ -8,6 +8,7 @@
 #include "renderer/pattern_lines.h"
 #include "renderer/pattern_pages.h"
 #include "renderer/text.h"
+#include "renderer/touch_page.h"
 
 namespace vindu {
 namespace {
@@ -35,6 +36,7 @@ void draw_time(const FrameState& state, const RectPx& place, Picture& picture) {
 
 std::optional<Image> draw_pattern(const FrameState& state, const Wall& whole, const Tile& tile,
                                   SizePx size) {
+  if (state.touch_page) return draw_touch_page(*state.touch_page, tile, size);
   switch (state.pattern) {
     case Pattern::grid:
       return draw_grid(whole, tile, size);
@@ -57,7 +59,7 @@ std::optional<Image> draw_pattern(const FrameState& state, const Wall& whole, co
 void PatternPainter::draw(const FrameState& state, const Tile& tile, const RectPx& place,
                           Picture& picture) {
   if (state.blank) return picture.clear({0, 0, 0, 255}, place);
-  if (state.pattern == Pattern::bar) {
+  if (state.pattern == Pattern::bar && !state.touch_page) {
     if (!bar_) bar_.emplace(whole_);
     bar_->draw(state.photon_time, tile, place, picture);
     draw_time(state, place, picture);
@@ -67,23 +69,24 @@ void PatternPainter::draw(const FrameState& state, const Tile& tile, const RectP
 }
 
 void PatternPainter::draw_number(const FrameState& state, const RectPx& place, Picture& picture) {
-  if (state.blank || (state.pattern != Pattern::counter && state.pattern != Pattern::bar)) return;
-  draw_frame_counter(state.number, place, picture);
+  if (shows_number(state)) draw_frame_counter(state.number, place, picture);
 }
 
 const Picture& PatternPainter::page(const FrameState& state, const Tile& tile, SizePx size) {
   auto found = std::ranges::find(pages_, tile.name, &Page::tile);
   if (found == pages_.end()) found = pages_.insert(found, {.tile = tile.name});
   Page& page = *found;
-  const bool moves = state.pattern == Pattern::eye && state.eye_in_wall != page.eye_in_wall;
-  if (page.picture && page.pattern == state.pattern && page.size == size &&
-      same(page.corners, tile.corners) && !moves)
+  const bool moves =
+      !state.touch_page && state.pattern == Pattern::eye && state.eye_in_wall != page.eye_in_wall;
+  if (page.picture && page.pattern == state.pattern && page.touch_page == state.touch_page &&
+      page.size == size && same(page.corners, tile.corners) && !moves)
     return *page.picture;
   if (!page.picture || page.size != size) page.picture.emplace(size, style_);
   if (const auto image = draw_pattern(state, whole_, tile, size)) page.picture->write(*image);
   page.size = size;
   page.corners = tile.corners;
   page.pattern = state.pattern;
+  page.touch_page = state.touch_page;
   page.eye_in_wall = state.eye_in_wall;
   return *page.picture;
 }

@@ -1,4 +1,5 @@
-// What tiles show of a frame that shows no model: a test pattern, or nothing. Drawn into parts of a
+// What tiles show of a frame that shows no model: a test pattern, points to be
+// touched, or nothing. Drawn into parts of a
 // picture, upright as the viewer sees it; how the display hangs is the surface's affair.
 #pragma once
 
@@ -12,7 +13,8 @@
 
 namespace vindu {
 
-/// A tile's picture of the patterns that are drawn by the CPU; empty for the others.
+/// A tile's picture of the touch page, or of the patterns that are drawn by the CPU; empty for the
+/// others.
 std::optional<Image> draw_pattern(const FrameState& state, const Wall& whole, const Tile& tile,
                                   SizePx size);
 
@@ -33,6 +35,7 @@ class PatternPainter {
     SizePx size{};
     TileCorners corners{};
     Pattern pattern = Pattern::none;
+    std::optional<TouchPage> touch_page{};
     Vec3 eye_in_wall = Vec3::Zero();
     std::optional<Picture> picture{};
   };

@@ -2,6 +2,7 @@
 // pair after the other, to the wire or from it. Private to cluster.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 
 #include "cluster/topics.h"
@@ -18,6 +19,9 @@ constexpr Limits kNotNegative{0, 1e9};
 constexpr Limits kAboveZero{1e-9, 1e9};
 constexpr Limits kShare{0, 1};
 constexpr Limits kBytes{0, 1e18};
+/// Of a touch page: in pixels of any tile they are far within an int.
+constexpr Limits kOnWall_m{-1e4, 1e4};
+constexpr Limits kRing_m{1e-4, 1e2};
 
 /// What is added up never overflows.
 inline bool brief(Duration duration) {
@@ -28,6 +32,23 @@ template <class Op, class Wire, class Value>
 void rigid_fields(Op& op, Wire& wire, Value& value) {
   op.quaternion(wire.rotation, value.rotation);
   op.numbers(wire.translation_m, value.translation);
+}
+
+template <class Op, class Wire, class Value>
+void touch_page_fields(Op& op, Wire& wire, Value& maybe) {
+  if (!op.there(wire._d, maybe)) return;
+  auto& page = *maybe;
+  auto& wire_page = wire._u.page;
+  op.size(wire_page.count, page.points, kMostTouchPoints);
+  for (std::size_t i = 0; i < std::min(page.points.size(), kMostTouchPoints); ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      op.number(wire_page.points[i].x_in_wall_m[axis], page.points[i].x_in_wall[axis], kOnWall_m);
+    op.name(wire_page.points[i].tile, page.points[i].tile);
+  }
+  op.index(wire_page.done, page.done, page.points.size());
+  op.number(wire_page.held, page.held, kShare);
+  op.number(wire_page.ring_m, page.ring_m, kRing_m);
+  op.text(wire_page.remark, page.remark);
 }
 
 template <class Op, class Wire, class Value>
@@ -45,6 +66,7 @@ void fields(Op& op, Wire& wire, Value& state) {
   op.count(wire.overlays, state.overlays);
   op.choice(wire.pattern, state.pattern, Pattern::eye);
   op.flag(wire.blank, state.blank);
+  touch_page_fields(op, wire.touch_page, state.touch_page);
 }
 
 template <class Op, class Wire, class Value>
@@ -218,10 +240,11 @@ requires std::same_as<std::remove_const_t<Value>, CommandMessage>
 void fields(Op& op, Wire& wire, Value& command) {
   op.name(wire.sender, command.sender);
   op.id(wire.request, command.request);
-  op.choice(wire.verb, command.verb, Verb::capture);
+  op.choice(wire.verb, command.verb, Verb::touch_page);
   op.whole_text(wire.tile, command.tile);
   op.whole_text(wire.argument, command.argument);
   op.whole_text(wire.clip, command.clip);
+  touch_page_fields(op, wire.touch_page, command.touch_page);
 }
 
 template <class Op, class Wire, class Value>

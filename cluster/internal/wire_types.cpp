@@ -1,5 +1,6 @@
 #include "cluster/internal/wire_types.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -34,6 +35,20 @@ struct ToWire {
   }
   void integer(std::int32_t& wire, int value) { wire = value; }
   void flag(std::uint8_t& wire, bool value) { wire = value ? 1 : 0; }
+  template <class Value>
+  bool there(std::uint8_t& wire, const std::optional<Value>& value) {
+    flag(wire, value.has_value());
+    return value.has_value();
+  }
+  /// `most`: 255 at most.
+  void index(std::uint8_t& wire, std::size_t value, std::size_t most) {
+    require(value <= most);
+    wire = static_cast<std::uint8_t>(value);
+  }
+  template <class Values>
+  void size(std::uint8_t& wire, const Values& values, std::size_t most) {
+    index(wire, values.size(), most);
+  }
   void number(double& wire, double value, Limits limits = {}) {
     require(in_range(value, limits));
     wire = value;
@@ -96,6 +111,21 @@ struct FromWire {
   void flag(std::uint8_t wire, bool& value) {
     require(wire <= 1);
     value = wire == 1;
+  }
+  template <class Value>
+  bool there(std::uint8_t wire, std::optional<Value>& value) {
+    require(wire <= 1);
+    if (wire == 1) value.emplace();
+    return wire == 1;
+  }
+  void index(std::uint8_t wire, std::size_t& value, std::size_t most) {
+    require(wire <= most);
+    value = wire;
+  }
+  template <class Values>
+  void size(std::uint8_t wire, Values& values, std::size_t most) {
+    require(wire <= most);
+    values.resize(std::min<std::size_t>(wire, most));
   }
   void number(double wire, double& value, Limits limits = {}) {
     require(in_range(wire, limits));

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/cluster/random_messages.h"
@@ -32,12 +33,12 @@ TEST(FrameStateCdr, ComesBackBitByBit) {
 TEST(FrameStateCdr, IsPlainLittleEndianCdrBehindItsHeader) {
   const Bytes bytes = to_cdr(FrameState{.number = 0x0102, .pattern = Pattern::bar, .blank = true});
 
-  EXPECT_EQ(bytes.size(), 4 + 8 * (2 + 3 + 4 + 3 + 2) + 4 + 4 + 3u);
+  EXPECT_EQ(bytes.size(), 4 + 8 * (2 + 3 + 4 + 3 + 2) + 4 + 4 + 4u);
   EXPECT_THAT(Bytes(bytes.begin(), bytes.begin() + 12),
               ::testing::ElementsAre(0, 1, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0));
   EXPECT_THAT(
-      Bytes(bytes.end() - 3, bytes.end()),
-      ::testing::ElementsAre(static_cast<int>(Mode::track), static_cast<int>(Pattern::bar), 1));
+      Bytes(bytes.end() - 4, bytes.end()),
+      ::testing::ElementsAre(static_cast<int>(Mode::track), static_cast<int>(Pattern::bar), 1, 0));
 }
 
 TEST(FrameStateCdr, RefusesEveryLengthButItsOwn) {
@@ -81,12 +82,89 @@ TEST(FrameStateCdr, RefusesTheSameFromOutside) {
   EXPECT_FALSE(frame_state_from_cdr(with(4 + 8 + 7, {0x7f}))) << "a time of 292 years";
   EXPECT_FALSE(frame_state_from_cdr(with(4 + 16 + 6, {0xf8, 0x7f}))) << "NaN";
   EXPECT_FALSE(frame_state_from_cdr(with(4 + 16 + 6, {0xf0, 0x7f}))) << "infinite";
-  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 3, {3}))) << "no mode";
-  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 2, {8}))) << "no pattern";
-  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 1, {2}))) << "neither blank nor not";
-  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 4, {0x80}))) << "clip -2^31";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 4, {3}))) << "no mode";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 3, {8}))) << "no pattern";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 2, {2}))) << "neither blank nor not";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 5, {0x80}))) << "clip -2^31";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 1, {1})))
+      << "a touch page, and it is not there";
+  EXPECT_FALSE(frame_state_from_cdr(with(good.size() - 1, {2}))) << "neither a touch page nor none";
   EXPECT_FALSE(frame_state_from_cdr(with(1, {0}))) << "big endian";
   EXPECT_FALSE(frame_state_from_cdr(with(1, {9}))) << "another encoding";
+}
+
+FrameState touch_state(const TouchPage& page) { return {.number = 1, .touch_page = page}; }
+
+TouchPage touch_page_of(std::size_t points) {
+  return {.points = {points, {{1, 2, 0}, "tile-3-1"}},
+          .done = 1,
+          .held = 0.25,
+          .remark = "only left sees the LED"};
+}
+
+TEST(TouchPageCdr, ComesBackWhole) {
+  for (const std::size_t points : {std::size_t{1}, std::size_t{5}, kMostTouchPoints}) {
+    const auto back = frame_state_from_cdr(to_cdr(touch_state(touch_page_of(points))));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->touch_page, touch_page_of(points));
+  }
+}
+
+// So a wall that shows none carries nothing for it, sixty times a second.
+TEST(TouchPageCdr, TakesNoRoomWhereThereIsNone) {
+  const std::size_t without = to_cdr(FrameState{.number = 1}).size();
+  EXPECT_GT(to_cdr(touch_state(touch_page_of(1))).size(), without + 24 * kMostTouchPoints);
+}
+
+TEST(TouchPageCdr, RefusesWhatIsNoPage) {
+  const auto changed = [](auto change) {
+    TouchPage page = touch_page_of(3);
+    change(page);
+    return to_cdr(touch_state(page));
+  };
+  EXPECT_FALSE(changed([](TouchPage&) {}).empty());
+  for (const double bad : {kNan, kInfinite, -1.0, 1e300}) {
+    EXPECT_TRUE(changed([=](TouchPage& page) { page.held = bad; }).empty());
+    EXPECT_TRUE(changed([=](TouchPage& page) { page.ring_m = bad; }).empty());
+  }
+  for (const double bad : {kNan, kInfinite, 2e4})
+    EXPECT_TRUE(changed([=](TouchPage& page) { page.points[2].x_in_wall.z() = bad; }).empty());
+  EXPECT_TRUE(changed([](TouchPage& page) { page.points[1].tile.clear(); }).empty());
+  EXPECT_TRUE(changed([](TouchPage& page) { page.done = 4; }).empty());
+  EXPECT_TRUE(to_cdr(touch_state(touch_page_of(kMostTouchPoints + 1))).empty());
+}
+
+/// The byte that tells the two apart.
+std::size_t place_of_difference(const Bytes& a, const Bytes& b) {
+  return static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
+}
+
+TEST(TouchPageCdr, RefusesTheSameFromOutside) {
+  TouchPage one = touch_page_of(3), other = one;
+  other.done = 2;
+  Bytes bytes = to_cdr(touch_state(one));
+  const std::size_t done = place_of_difference(bytes, to_cdr(touch_state(other))), count = done - 1;
+  ASSERT_EQ(bytes[done], 1);
+  ASSERT_EQ(bytes[count], 3);
+  bytes[done] = 4;
+  EXPECT_FALSE(frame_state_from_cdr(bytes)) << "4 of 3 are touched";
+  bytes[done] = 1;
+  for (const int bad : {21, 255}) {
+    bytes[count] = static_cast<std::uint8_t>(bad);
+    EXPECT_FALSE(frame_state_from_cdr(bytes)) << bad << " points";
+  }
+  bytes[count] = 4;
+  EXPECT_FALSE(frame_state_from_cdr(bytes)) << "the fourth is on no tile";
+}
+
+TEST(TouchPageCdr, TravelsInACommand) {
+  const CommandMessage command{.sender = "c",
+                               .request = 1,
+                               .verb = Verb::touch_page,
+                               .touch_page = touch_page_of(kMostTouchPoints)};
+  const auto back = message_from_cdr(Topic::command, to_cdr(command));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(std::get<CommandMessage>(*back).touch_page, command.touch_page);
 }
 
 class MessageCdr : public ::testing::TestWithParam<Topic> {};

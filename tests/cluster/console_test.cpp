@@ -154,5 +154,125 @@ TEST_F(Consoles, ManyOfThemTakeNoMemoryOfTheDesk) {
   }
 }
 
+TouchPage page_of(double held) {
+  return {.points = {{{1, 2, 0}, "tile-0-0"}, {{3, 2, 0}, "tile-1-0"}}, .held = held};
+}
+
+CommandMessage page_command(const std::string& sender, const std::optional<TouchPage>& page) {
+  return {.sender = sender, .request = 1, .verb = Verb::touch_page, .touch_page = page};
+}
+
+const Time kBegin{1000s};
+
+TEST(PageOfConsole, IsShownUntilItsConsoleTakesItAway) {
+  PageOfConsole page;
+  EXPECT_FALSE(page.at(kBegin));
+  page.hear(page_command("c", page_of(0)), kBegin);
+  EXPECT_EQ(page.at(kBegin), page_of(0));
+  page.hear(page_command("c", page_of(0.5)), kBegin + 1s);
+  EXPECT_EQ(page.at(kBegin + 1s), page_of(0.5));
+  page.hear(page_command("c", std::nullopt), kBegin + 2s);
+  EXPECT_FALSE(page.at(kBegin + 2s));
+}
+
+TEST(PageOfConsole, OfAConsoleThatWasKilledEndsByItself) {
+  PageOfConsole page;
+  page.hear(page_command("c", page_of(0)), kBegin);
+  page.hear(page_command("c", page_of(0)), kBegin + kPageLease);
+  EXPECT_TRUE(page.at(kBegin + 2 * kPageLease)) << "it was said again";
+  EXPECT_FALSE(page.at(kBegin + 2 * kPageLease + 1ns));
+}
+
+TEST(PageOfConsole, IsNotTakenOverByAnotherConsole) {
+  PageOfConsole page;
+  page.hear(page_command("c", page_of(0)), kBegin);
+  EXPECT_THROW(page.hear(page_command("d", page_of(1)), kBegin + 1s), Error);
+  page.hear(page_command("d", std::nullopt), kBegin + 1s);
+  EXPECT_EQ(page.at(kBegin + 1s), page_of(0));
+  page.hear(page_command("d", page_of(1)), kBegin + 2 * kPageLease);
+  EXPECT_EQ(page.at(kBegin + 2 * kPageLease), page_of(1));
+}
+
+class WallPages : public Consoles {
+ protected:
+  /// A master that does as it is told, until its scope ends.
+  std::jthread start_master() {
+    return std::jthread(
+        [this, bus = std::shared_ptr<Bus>(join_master())](const std::stop_token& stop) {
+          CommandDesk desk(*bus, "master");
+          while (!stop.stop_requested()) {
+            bus->wait({Topic::command}, in_ms(10));
+            for (const CommandMessage& command : desk.take()) {
+              page_.hear(command, std::chrono::steady_clock::now());
+              pages_.push_back(command.touch_page);
+              desk.answer(command, true);
+            }
+          }
+        });
+  }
+
+  PageOfConsole page_;
+  std::vector<std::optional<TouchPage>> pages_;  // that the master was told
+};
+
+TEST_F(WallPages, GoToTheMasterAndAreTakenAwayAtTheEnd) {
+  std::jthread master = start_master();
+  {
+    WallPage page(transport_, console("c"));
+    ASSERT_TRUE(page.begin(page_of(0), 60s, 60s));
+    page.show(page_of(0));  // nothing is said: it is the same, and it is no time yet
+    page.show(page_of(0.5));
+  }
+  master.request_stop();
+  master.join();
+  EXPECT_THAT(pages_, ::testing::ElementsAre(page_of(0), page_of(0.5), std::nullopt));
+}
+
+TEST_F(WallPages, AreSaidAgainBeforeTheMasterForgetsThem) {
+  std::jthread master = start_master();
+  {
+    WallPage page(transport_, console("c"));
+    ASSERT_TRUE(page.begin(page_of(0), 60s, 60s));
+    const Time end = std::chrono::steady_clock::now() + kPageLease / 2;
+    while (std::chrono::steady_clock::now() < end) {
+      page.show(page_of(0));
+      std::this_thread::sleep_for(10ms);
+    }
+  }
+  master.request_stop();
+  master.join();
+  EXPECT_GT(pages_.size(), 2u);
+}
+
+TEST_F(WallPages, FindNoMasterWhereThereIsNone) {
+  WallPage page(transport_, console("c"));
+  EXPECT_FALSE(page.begin(page_of(0), 20ms, 60s));
+}
+
+TEST_F(WallPages, AreNotShownByAMasterOfAnotherVersionOrWall) {
+  const auto complaint = [this](const Participant& self) -> std::string {
+    try {
+      WallPage(transport_, self).begin(page_of(0), 60s, 50ms);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  {
+    const auto newer = join_master(kProtocolVersion + 1);
+    EXPECT_THAT(complaint(console("c")), HasSubstr("speaks protocol"));
+  }
+  const auto bus = transport_.join(
+      {{.role = Role::master, .name = "master", .host = "head", .version = "1", .wall = "A"},
+       {Topic::answer},
+       {Topic::command}});
+  Participant self = console("c");
+  self.wall = "B";
+  EXPECT_THAT(complaint(self), HasSubstr("has another wall than the wall file here"));
+  EXPECT_TRUE(bus->take<CommandMessage>().empty()) << "it was asked all the same";
+  self.wall = "A";
+  EXPECT_THAT(complaint(self), HasSubstr("does not answer"));
+}
+
 }  // namespace
 }  // namespace vindu

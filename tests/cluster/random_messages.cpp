@@ -25,6 +25,20 @@ std::string text(Random& random, int most) {
 
 Duration duration(Random& random) { return Duration(static_cast<long>(random.uniform(0, 1e9))); }
 
+std::optional<TouchPage> touch_page(Random& random) {
+  if (random.uniform(0, 1) < 0.5) return std::nullopt;
+  const auto count = static_cast<std::size_t>(random.uniform(0, 1 + double(kMostTouchPoints)));
+  TouchPage page;
+  for (std::size_t i = 0; i < count; ++i)
+    page.points.push_back(
+        {{random.normal(3), random.normal(3), random.uniform(-1e4, 1e4)}, text(random, 60)});
+  page.done = static_cast<std::size_t>(random.uniform(0, 1 + double(count)));
+  page.held = random.uniform(0, 1);
+  page.remark = text(random, 250);
+  page.ring_m = random.uniform(1e-4, 1e2);
+  return page;
+}
+
 FrameMessage frame(Random& random) {
   FrameMessage frame{.epoch = id(random), .newest = random_state(random)};
   frame.origin.tick_time = time(random);
@@ -141,10 +155,11 @@ EventMessage event(Random& random) {
 CommandMessage command(Random& random) {
   return {.sender = text(random, 100),
           .request = id(random),
-          .verb = choice(random, Verb::capture),
+          .verb = choice(random, Verb::touch_page),
           .tile = text(random, 60),
           .argument = text(random, 1000),
-          .clip = text(random, 250)};
+          .clip = text(random, 250),
+          .touch_page = touch_page(random)};
 }
 
 }  // namespace
@@ -162,6 +177,7 @@ FrameState random_state(Random& random) {
   state.overlays = random.uniform(0, 1) < 0.5 ? std::uint32_t{kStatistics} : 0;
   state.pattern = choice(random, Pattern::eye);
   state.blank = random.uniform(0, 1) < 0.5;
+  state.touch_page = touch_page(random);
   return state;
 }
 

@@ -66,6 +66,10 @@ TEST_F(Views, SayThatAPatternIsShownOrThatTheWallIsBlank) {
   frame.newest = {.number = 8, .pattern = Pattern::seams, .blank = true};
   view_.hear(frame, Time{});
   EXPECT_THAT(table_of(view_.now()), HasSubstr("in the frame lock, pattern seams, blank\n"));
+
+  frame.newest = {.number = 9, .touch_page = TouchPage{}};
+  view_.hear(frame, Time{});
+  EXPECT_THAT(table_of(view_.now()), HasSubstr("in the frame lock, points to be touched\n"));
 }
 
 TEST_F(Views, NameWhatIsNotReadyFirst) {

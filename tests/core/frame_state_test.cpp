@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <vector>
 
@@ -18,10 +20,31 @@ FrameState some_state() {
   return state;
 }
 
+TouchPage some_page() { return {.points = {{{1, 2, 0}, "tile-0-0"}, {{3, 2, 0}, "tile-1-0"}}}; }
+
+/// As a state that shows the page.
+std::function<void(FrameState&)> page(const std::function<void(TouchPage&)>& change = {}) {
+  return [change](FrameState& state) {
+    state.touch_page = some_page();
+    if (change) change(*state.touch_page);
+  };
+}
+
+std::vector<std::function<void(FrameState&)>> pages() {
+  return {page(),
+          page([](TouchPage& page) { page.points.pop_back(); }),
+          page([](TouchPage& page) { page.points[1].x_in_wall.x() += 1e-9; }),
+          page([](TouchPage& page) { page.points[1].tile = "tile-1-1"; }),
+          page([](TouchPage& page) { page.done = 1; }),
+          page([](TouchPage& page) { page.held += 1e-9; }),
+          page([](TouchPage& page) { page.remark = "no light"; }),
+          page([](TouchPage& page) { page.ring_m += 1e-9; })};
+}
+
 TEST(FrameHash, IsEqualForEqualStates) { EXPECT_EQ(hash_of(some_state()), hash_of(some_state())); }
 
 TEST(FrameHash, ChangesWithEveryField) {
-  const std::vector<std::function<void(FrameState&)>> changes = {
+  std::vector<std::function<void(FrameState&)>> changes = {
       [](FrameState& state) { state.number += 1; },
       [](FrameState& state) { state.photon_time += std::chrono::nanoseconds(1); },
       [](FrameState& state) { state.eye_in_wall.x() += 1e-9; },
@@ -42,6 +65,7 @@ TEST(FrameHash, ChangesWithEveryField) {
       [](FrameState& state) { state.overlays = kStatistics; },
       [](FrameState& state) { state.pattern = Pattern::grid; },
       [](FrameState& state) { state.blank = true; }};
+  std::ranges::copy(pages(), std::back_inserter(changes));
   std::set<std::uint64_t> hashes = {hash_of(some_state())};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     FrameState changed = some_state();
@@ -56,7 +80,7 @@ TEST(ContentHash, IsThatOfWhatCanBeSeen) {
   same.photon_time += std::chrono::seconds(1);
   same.mode = Mode::loop;
   EXPECT_EQ(content_hash_of(same), content_hash_of(some_state()));
-  const std::vector<std::function<void(FrameState&)>> changes = {
+  std::vector<std::function<void(FrameState&)>> changes = {
       [](FrameState& state) { state.eye_in_wall.x() += 1e-9; },
       [](FrameState& state) { state.navigation.wall_from_scene.rotation.w() += 1e-9; },
       [](FrameState& state) { state.navigation.wall_from_scene.translation.z() += 1e-9; },
@@ -65,6 +89,7 @@ TEST(ContentHash, IsThatOfWhatCanBeSeen) {
       [](FrameState& state) { state.overlays = kStatistics; },
       [](FrameState& state) { state.pattern = Pattern::grid; },
       [](FrameState& state) { state.blank = true; }};
+  std::ranges::copy(pages(), std::back_inserter(changes));
   std::set<std::uint64_t> hashes = {content_hash_of(some_state())};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     FrameState changed = some_state();
@@ -98,6 +123,20 @@ TEST(ContentHash, OfAPatternThatStandsStillDoesNotCareForTheModelBehindIt) {
   EXPECT_EQ(content_hash_of(one), content_hash_of(other));
   one.pattern = other.pattern = Pattern::eye;
   EXPECT_NE(content_hash_of(one), content_hash_of(other));
+}
+
+TEST(ContentHash, OfATouchPageDoesNotCareForWhatIsBehindIt) {
+  FrameState one = some_state();
+  one.touch_page = some_page();
+  FrameState other = one;
+  other.number += 1;
+  other.eye_in_wall.x() += 1;
+  for (const Pattern pattern : {Pattern::none, Pattern::eye, Pattern::bar, Pattern::counter}) {
+    other.pattern = pattern;
+    EXPECT_EQ(content_hash_of(one), content_hash_of(other)) << name_of(pattern);
+    EXPECT_FALSE(shows_model(other));
+    EXPECT_FALSE(shows_number(other));
+  }
 }
 
 TEST(FrameHash, TellsExchangedCoordinatesApart) {
