@@ -10,10 +10,13 @@
 #include "app/calibrate.h"
 #include "app/common.h"
 #include "app/touch_screen.h"
+#include "app/touch_wall.h"
+#include "app/wiimote_findings.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "renderer/surface.h"
 #include "tracker/calibration/wall_touch.h"
+#include "tracker/wiimote/hidapi_bus.h"
 
 namespace vindu::app {
 namespace {
@@ -50,12 +53,22 @@ TouchPage first_page(const Site& site, const std::vector<WallTarget>& targets) {
   return page;
 }
 
-/// A window where there is a display and somebody touches points now; pictures where asked for. The
-/// terminal says it all, too, so a display that cannot be used ends nothing.
-ShowPage choose_show(const WallCommand& command, const Wall& wall) {
-  const auto show_nothing = [](const TouchPage&) { return true; };
-  if (!command.draw.empty()) return page_folder(wall, command.draw);
-  if (!command.common.from.empty() || !has_display()) return show_nothing;
+/// The tiles of the wall where it runs. A wall that cannot be used ends nothing.
+ShowPage show_on_wall(const Site& site, const TouchPage& first) {
+  try {
+    ShowPage tiles = page_on_running_wall(site, first);
+    if (tiles) log_info("wall", "it runs: its tiles show the points");
+    return tiles;
+  } catch (const Error& error) {
+    log_warning("wall", std::string(error.what()) + " (its tiles do not show the points)");
+    return {};
+  }
+}
+
+/// A window where there is a display. One that cannot be used ends nothing: the terminal says it
+/// all, too.
+ShowPage show_in_window(const Wall& wall) {
+  if (!has_display()) return {};
   try {
     ShowPage window = page_window(wall);
     if (wall.tiles.size() > 1)
@@ -63,18 +76,37 @@ ShowPage choose_show(const WallCommand& command, const Wall& wall) {
     return window;
   } catch (const Error& error) {
     log_warning("wall", std::string(error.what()) + " (the points are named here)");
-    return show_nothing;
+    return {};
   }
+}
+
+/// Pictures where asked for; else, where somebody touches points now, the wall itself, or a window.
+ShowPage choose_show(const WallCommand& command, const Site& site, const TouchPage& first) {
+  if (!command.draw.empty()) return page_folder(site.wall, command.draw);
+  ShowPage show;
+  if (command.common.from.empty()) show = show_on_wall(site, first);
+  if (!show && command.common.from.empty()) show = show_in_window(site.wall);
+  return show ? show : [](const TouchPage&) { return true; };
+}
+
+/// A running wall may read the very cameras.
+void warn_of_other_readers(const WallCommand& command, const Site& site) {
+  const bool live = std::ranges::any_of(site.cameras, [](const CameraConfig& camera) {
+    return camera.source == CameraSource::wiimote;
+  });
+  if (!live || !command.common.from.empty()) return;
+  MonotonicClock clock;
+  for (const std::string& line : wiimotes_in_use(*make_hidapi_bus(clock), site))
+    log_warning("wall", line +
+                            ": they disturb each other; end it, or begin the wall by vindu "
+                            "launch --mode loop");
 }
 
 /// Follows who touches the targets, and shows the page.
 class Touching {
  public:
-  Touching(const Site& site, std::vector<WallTarget> targets, ShowPage show)
-      : site_(site),
-        targets_(std::move(targets)),
-        page_(first_page(site, targets_)),
-        show_(std::move(show)) {
+  Touching(const Site& site, std::vector<WallTarget> targets, TouchPage page, ShowPage show)
+      : site_(site), targets_(std::move(targets)), page_(std::move(page)), show_(std::move(show)) {
     show_(page_);
   }
 
@@ -149,7 +181,9 @@ int calibrate_wall(const WallCommand& command) {
                command.targets);
   fmt::print(stderr, "Hold the only LED still for two seconds at each, in this order:\n");
   for (const WallTarget& target : targets) fmt::print(stderr, "  {}\n", target.name);
-  Touching touching(site, targets, choose_show(command, site.wall));
+  warn_of_other_readers(command, site);
+  const TouchPage page = first_page(site, targets);
+  Touching touching(site, targets, page, choose_show(command, site, page));
   const Calibrating run = capture(
       command.common,
       {.name = "wall",
@@ -187,11 +221,14 @@ void add_calibrate_wall(CLI::App& calibrate, Action& chosen) {
       "wall", "Where the wall is for the cameras: hold an LED to corners of its tiles");
   add_calibrate_options(*app, command->common);
   app->add_option("--targets", command->targets, "So many corners (default: 5)")
-      ->check(CLI::Range(3, 20));
+      ->check(CLI::Range(3, static_cast<int>(kMostTouchPoints)));
   app->add_option("--draw", command->draw,
-                  "Pictures of what the wall shows, instead of a window: touch-N.png, wall-N.png")
+                  "Pictures of what the wall shows, instead of that: touch-N.png, wall-N.png")
       ->type_name("DIR");
   app->footer(
+      "\nWhere a master of the wall runs, its tiles show the points; else a window does, or the\n"
+      "terminal names them. The cameras are this command's: begin the wall by vindu launch --mode\n"
+      "loop, which does not open them.\n"
       "\nExamples, after a wand calibration:\n"
       "  vindu calibrate wall --wall wall.toml\n"
       "  vindu calibrate wall --wall wall.toml --targets 8 --draw pictures\n");

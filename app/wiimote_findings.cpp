@@ -44,6 +44,13 @@ std::vector<std::string> holders_of(const std::string& path) {
   return holders;
 }
 
+bool is_of(const Site& site, const HidInfo& info) {
+  return std::ranges::any_of(site.cameras, [&](const CameraConfig& camera) {
+    return camera.source == CameraSource::wiimote &&
+           (camera.address.empty() || camera.address == info.address);
+  });
+}
+
 std::vector<NumberedWiimote> numbered_wiimotes(HidBus& bus) {
   std::vector<NumberedWiimote> numbered;
   for (HidInfo& info : find_wiimotes(bus))
@@ -96,6 +103,18 @@ const char* state_of_absent(const BluezDevice& known) {
 }
 
 }  // namespace
+
+std::vector<std::string> wiimotes_in_use(HidBus& bus, const Site& site) {
+  std::vector<std::string> lines;
+  for (const HidInfo& info : find_wiimotes(bus)) {
+    if (!is_of(site, info)) continue;
+    const std::vector<std::string> holders = holders_of(info.path);
+    if (!holders.empty())
+      lines.push_back(
+          fmt::format("{} is in use by {}, too", label_of(info), fmt::join(holders, ", ")));
+  }
+  return lines;
+}
 
 NumberedWiimote choose_wiimote(HidBus& bus, const std::string& which) {
   const std::vector<NumberedWiimote> found = numbered_wiimotes(bus);

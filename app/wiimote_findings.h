@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/site.h"
 #include "tracker/wiimote/bluez.h"
 #include "tracker/wiimote/hid_device.h"
 #include "tracker/wiimote/report.h"
@@ -18,6 +19,9 @@ struct NumberedWiimote {
   int number = 0;
   HidInfo info;
 };
+
+/// A line for each of the site's that another program of this machine has open.
+std::vector<std::string> wiimotes_in_use(HidBus& bus, const Site& site);
 
 /// The one of a number or of an address. Throws Error when there is none.
 NumberedWiimote choose_wiimote(HidBus& bus, const std::string& which);

@@ -1,5 +1,7 @@
 // vindu calibrate: with emulated cameras that stand elsewhere than the wall file says, each
 // calibration finds them, writes what it found, and says how good that is.
+#include <unistd.h>
+
 #include "renderer/image.h"
 #include "tests/app/process.h"
 
@@ -14,7 +16,9 @@ using ::testing::IsEmpty;
 class CalibrateCommand : public AppTest {
  protected:
   CalibrateCommand()
-      : wall_(write("wall.toml", bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml"))) {}
+      : wall_(write("wall.toml", bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml") +
+                                     "[cluster]\nname = \"calibrate-" + std::to_string(getpid()) +
+                                     "\"\n")) {}
   const std::string wall_;
 };
 

@@ -106,6 +106,32 @@ TEST_F(WiimoteFindings, NamesTheProgramThatHasADeviceAndLeavesItAlone) {
   std::filesystem::remove(file);
 }
 
+Site site_with(CameraSource source, const std::string& address = "") {
+  Site site;
+  CameraConfig& camera = site.cameras.emplace_back();
+  camera.source = source;
+  camera.address = address;
+  return site;
+}
+
+TEST_F(WiimoteFindings, NamesThoseOfASiteThatAnotherProgramHas) {
+  std::string file = std::filesystem::temp_directory_path() / "vindu_device_XXXXXX";
+  const int descriptor = mkstemp(file.data());
+  FileBus bus(file);
+  const auto lines_for = [&](const std::string& address) {
+    return wiimotes_in_use(bus, site_with(CameraSource::wiimote, address));
+  };
+  EXPECT_THAT(lines_for("00:1f:c5:1b:3a:b1"),
+              ElementsAre(AllOf(HasSubstr("00:1f:c5:1b:3a:b1 is in use by"),
+                                HasSubstr("(pid " + std::to_string(getpid()) + ")"))));
+  EXPECT_THAT(lines_for(""), SizeIs(1)) << "any Wiimote will do";
+  EXPECT_THAT(lines_for("00:1f:c5:00:00:00"), IsEmpty());
+  EXPECT_THAT(wiimotes_in_use(bus, site_with(CameraSource::emulated)), IsEmpty());
+  close(descriptor);
+  EXPECT_THAT(lines_for(""), IsEmpty());
+  std::filesystem::remove(file);
+}
+
 TEST_F(WiimoteFindings, AddTheAdapterToAReadyOneWithABond) {
   const std::string address = add().options().info.address;
   auto findings = found();
