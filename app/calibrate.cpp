@@ -66,52 +66,87 @@ class ProgressLine {
   bool shown_ = false;
 };
 
-void watch_live(const CalibrateOptions& options, const CaptureWish& wish, Calibrating& run) {
+bool is_video(const CameraConfig& camera) { return camera.source == CameraSource::video; }
+
+RecordingInfo recording_info(const CalibrateOptions& options, const Site& site, Time now) {
+  RecordingInfo info{
+      .program = "vindu " VINDU_VERSION,
+      .started_utc_ns = Duration(std::chrono::system_clock::now().time_since_epoch()).count(),
+      .started = now,
+      .wall_file = options.wall_file,
+      .wall_text = options.wall_file.empty() ? "" : site_text(options.wall_file),
+      .devices = {}};
+  for (const CameraConfig& camera : site.cameras)
+    info.devices.push_back({static_cast<int>(info.devices.size()), camera.name});
+  return info;
+}
+
+/// The recording goes where no Wiimote has sent anything.
+void drop_if_empty(Calibrating& run) {
+  const bool recorded = std::ranges::any_of(run.capture.observations, [&](const auto& seen) {
+    return !is_video(run.site.cameras[static_cast<std::size_t>(seen.camera)]);
+  });
+  if (run.recording.empty() || recorded) return;
+  std::filesystem::remove(run.recording);
+  run.recording.clear();
+}
+
+/// Until --seconds, Ctrl-C or enough was seen.
+void look(const CalibrateOptions& options, const CaptureWish& wish, const Cameras& cameras,
+          Clock& clock, Capture& capture) {
   const StopSignals signals;
+  ProgressLine line;
+  const Time end = options.seconds ? clock.now() + from_seconds(*options.seconds) : Time::max();
+  line.show(wish.request);
+  for (int round = 0; clock.now() < end; ++round) {
+    for (const auto& camera : cameras.sources())
+      while (const auto seen = camera->next(clock.now())) capture.observations.push_back(*seen);
+    if (wish.watching && !wish.watching(capture)) break;
+    if (round % 5 == 4)
+      line.show(progress_line(wish.progress, capture, cameras.states()) + "   (Ctrl-C: enough)");
+    if (signals.came_within(std::chrono::milliseconds(100))) break;
+  }
+}
+
+void watch_live(const CalibrateOptions& options, const CaptureWish& wish, Calibrating& run) {
   MonotonicClock clock;
   EmulatedRoomOptions beside;
   beside.body = wish.body(run.site);
   const EmulatedRoom room(run.site, clock, beside);  // for those that are emulated
-  RecordingInfo info{
-      .program = "vindu " VINDU_VERSION,
-      .started_utc_ns = Duration(std::chrono::system_clock::now().time_since_epoch()).count(),
-      .started = clock.now(),
-      .wall_file = options.wall_file,
-      .wall_text = options.wall_file.empty() ? "" : site_text(options.wall_file),
-      .devices = {}};
-  for (const CameraConfig& camera : run.site.cameras)
-    info.devices.push_back({static_cast<int>(info.devices.size()), camera.name});
-  run.recording = recording_name(options, wish);
-  RecordingWriter writer(run.recording, info);
+  std::optional<RecordingWriter> writer;
+  if (!std::ranges::all_of(run.site.cameras, is_video)) {
+    run.recording = recording_name(options, wish);
+    writer.emplace(run.recording, recording_info(options, run.site, clock.now()));
+  }
   {
     const Cameras cameras(
         run.site, room, clock, {.tap = [&](std::unique_ptr<HidDevice> device, int camera) {
-          return std::make_unique<RecordingHidDevice>(std::move(device), writer, camera);
+          return std::make_unique<RecordingHidDevice>(std::move(device), *writer, camera);
         }});
-    ProgressLine line;
-    const Time end = options.seconds ? clock.now() + from_seconds(*options.seconds) : Time::max();
-    line.show(wish.request);
-    for (int round = 0; clock.now() < end; ++round) {
-      for (const auto& camera : cameras.sources())
-        while (const auto seen = camera->next(clock.now()))
-          run.capture.observations.push_back(*seen);
-      if (wish.watching && !wish.watching(run.capture)) break;
-      if (round % 5 == 4) line.show(wish.progress(run.capture) + "   (Ctrl-C: enough)");
-      if (signals.came_within(std::chrono::milliseconds(100))) break;
-    }
+    look(options, wish, cameras, clock, run.capture);
   }
-  writer.flush();
-  const bool wiimotes = std::ranges::any_of(run.site.cameras, [](const CameraConfig& camera) {
-    return camera.source != CameraSource::video;
-  });
+  if (writer) writer->flush();
+  drop_if_empty(run);
+  if (run.capture.observations.empty())
+    throw Error(
+        {"none of them sent anything", "cameras", "vindu wiimote list shows what is there"});
   run.capture.up_in_camera.assign(run.site.cameras.size(), std::nullopt);
-  if (wiimotes) run.capture.up_in_camera = read_capture(run.recording, run.site).up_in_camera;
+  if (!run.recording.empty())
+    run.capture.up_in_camera = read_capture(run.recording, run.site).up_in_camera;
 }
 
-bool may_write(const CalibrateOptions& options, const Calibrating& run) {
-  if (!options.dry_run && run.wall_file.empty())
+/// How to go on after `error`: with what live cameras have sent.
+Error with_recording(const Error& error, const Calibrating& run) {
+  const bool whole = std::ranges::none_of(run.site.cameras, is_video);
+  return Error(fmt::format("{}; what {} sent is kept: --from {} calibrates by it", error.what(),
+                           whole ? "the cameras" : "the Wiimotes (no video cameras)",
+                           run.recording));
+}
+
+bool may_write(const CalibrateOptions& options) {
+  if (!options.dry_run && options.wall_file.empty())
     fmt::print(stderr, "Nothing is written: name your wall file by --wall FILE.\n");
-  return !options.dry_run && !run.wall_file.empty();
+  return !options.dry_run && !options.wall_file.empty();
 }
 
 }  // namespace
@@ -132,36 +167,52 @@ void add_calibrate_options(CLI::App& app, CalibrateOptions& options) {
   app.add_flag("--dry-run", options.dry_run, "Write nothing");
 }
 
-Calibrating capture(const CalibrateOptions& options, const CaptureWish& wish) {
-  Calibrating run{.site = load_site(options.wall_file),
-                  .wall_file = options.wall_file,
-                  .capture = {},
-                  .recording = {},
-                  .truth = {}};
-  if (run.site.cameras.empty())
+int calibrate(const CalibrateOptions& options, const Site& site, const CaptureWish& wish,
+              const std::function<void(const Calibrating&)>& by_what_was_seen) {
+  if (site.cameras.empty())
     throw Error({"names no [[camera]]", options.wall_file, "add the cameras to be calibrated"});
-  if (!options.from.empty()) {
-    run.capture = read_capture(options.from, run.site);
-    run.recording = options.from;
-  } else if (all_emulated(run.site)) {
-    watch_emulated(options, wish, run);
-  } else {
-    watch_live(options, wish, run);
+  Calibrating run{.site = site};
+  const bool live = options.from.empty() && !all_emulated(site);
+  try {
+    if (live) {
+      watch_live(options, wish, run);
+    } else if (options.from.empty()) {
+      watch_emulated(options, wish, run);
+    } else {
+      run.capture = read_capture(options.from, site);
+      run.recording = options.from;
+    }
+    by_what_was_seen(run);
+  } catch (const Error& error) {
+    if (!live) throw;
+    drop_if_empty(run);
+    if (run.recording.empty()) throw;
+    throw with_recording(error, run);
   }
-  return run;
+  return 0;
 }
 
 std::string date_now() { return stamp("{:%Y-%m-%d %H:%M} UTC"); }
 
-void write(const CalibrateOptions& options, const Calibrating& run,
-           const std::vector<CameraCalibration>& cameras) {
-  if (may_write(options, run))
-    fmt::print(stderr, "Written to {}\n", write_calibration(run.wall_file, cameras));
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
 }
 
-void write(const CalibrateOptions& options, const Calibrating& run, const HeadCalibration& head) {
-  if (may_write(options, run))
-    fmt::print(stderr, "Written to {}\n", write_calibration(run.wall_file, head));
+std::string end_of_json(const std::vector<std::string>& warnings, const std::string& truth) {
+  std::string texts;
+  for (const std::string& warning : warnings)
+    texts += (texts.empty() ? "" : ",") + json_text(warning);
+  return fmt::format(R"("warnings":[{}])", texts) + (truth.empty() ? "" : ",\"truth\":" + truth);
+}
+
+void write(const CalibrateOptions& options, const std::vector<CameraCalibration>& cameras) {
+  if (may_write(options))
+    fmt::print(stderr, "Written to {}\n", write_calibration(options.wall_file, cameras));
+}
+
+void write(const CalibrateOptions& options, const HeadCalibration& head) {
+  if (may_write(options))
+    fmt::print(stderr, "Written to {}\n", write_calibration(options.wall_file, head));
 }
 
 double coverage_so_far(const Capture& capture, std::size_t camera, const Site& site) {

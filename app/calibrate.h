@@ -1,5 +1,5 @@
 // What the sub-commands of vindu calibrate share: what the cameras saw, live, emulated or from a
-// recording; where results go.
+// recording; where results go, and how they are told.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/calibrate_progress.h"
 #include "app/commands.h"
 #include "core/calibration.h"
 #include "simulator/emulated_capture.h"
@@ -32,10 +33,9 @@ void add_calibrate_options(CLI::App& app, CalibrateOptions& options);
 /// without its calibration, the same for each calibration of one seed.
 struct Calibrating {
   Site site;
-  std::string wall_file;  ///< empty: the one that comes with Vindu, beside which nothing is written
-  Capture capture;
-  std::string recording;
-  std::optional<HiddenTruth> truth;
+  Capture capture{};
+  std::string recording{};  ///< empty: of emulated cameras, or of video cameras alone
+  std::optional<HiddenTruth> truth{};
 };
 
 struct CaptureWish {
@@ -44,24 +44,30 @@ struct CaptureWish {
   std::string request;  ///< what people are asked to do
   /// What emulated cameras are shown; the site's cameras are the true ones. Begins at 0.
   std::function<LedBody(const Site& truth)> body;
-  /// How far it is, for a line on the terminal; given every half second.
-  std::function<std::string(const Capture& so_far)> progress;
+  Progress progress{};  ///< for a line on the terminal; asked every half second
   /// Given what was seen so far, ten times a second; false: that is enough.
   std::function<bool(const Capture& so_far)> watching{};
   bool known_cameras = false;  ///< emulated ones are what and where the wall file says
 };
 
-/// A recording's, or the emulated cameras', or, until --seconds or Ctrl-C, the live cameras'; these
-/// are recorded beside the wall file. Throws Error.
-Calibrating capture(const CalibrateOptions& options, const CaptureWish& wish);
+/// Looks, and calibrates by what was seen: a recording's, or the emulated cameras', or, until
+/// --seconds or Ctrl-C, the live cameras'; their Wiimotes are recorded beside the wall file. Throws
+/// Error, which names that recording. Returns 0.
+int calibrate(const CalibrateOptions& options, const Site& site, const CaptureWish& wish,
+              const std::function<void(const Calibrating& run)>& by_what_was_seen);
 
 /// "2010-06-01 12:00 UTC"
 std::string date_now();
 
+/// On the terminal; with --json they are in the figures.
+void print_warnings(const std::vector<std::string>& warnings);
+/// "warnings":[...],"truth":TRUTH as every calibration's JSON ends; without the truth where that is
+/// empty.
+std::string end_of_json(const std::vector<std::string>& warnings, const std::string& truth);
+
 /// Writes it unless --dry-run or no wall file was named, and says where, or why not.
-void write(const CalibrateOptions& options, const Calibrating& run,
-           const std::vector<CameraCalibration>& cameras);
-void write(const CalibrateOptions& options, const Calibrating& run, const HeadCalibration& head);
+void write(const CalibrateOptions& options, const std::vector<CameraCalibration>& cameras);
+void write(const CalibrateOptions& options, const HeadCalibration& head);
 
 /// Share of the picture that a camera's dots have covered so far.
 double coverage_so_far(const Capture& capture, std::size_t camera, const Site& site);

@@ -2,22 +2,70 @@
 // while no helmet is in the room, so that they are never taken for LEDs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "app/calibrate.h"
 #include "app/common.h"
 #include "core/error.h"
+#include "tracker/camera_model.h"
 #include "tracker/joint/static_dots.h"
 
 namespace vindu::app {
 namespace {
 
 /// Emulated: two lamps beside the wall.
-LedBody lamps(const Site& site) {
+std::vector<Vec3> lamps_in_wall(const Site& site) {
   const double half_m = 0.4 * site.wall.grid.width_m;
-  return bare_leds({{-half_m, 0.5, 0.2}, {half_m, -0.6, 0.2}},
+  return {{-half_m, 0.5, 0.2}, {half_m, -0.6, 0.2}};
+}
+
+LedBody lamps(const Site& site) {
+  return bare_leds(lamps_in_wall(site),
                    [room_from_wall = site.wall.room_from_wall](Time) { return room_from_wall; });
+}
+
+/// Raw places of the lamps in an emulated camera's picture.
+std::vector<Vec2> lamps_px(const Site& site, const CameraConfig& camera) {
+  const CameraModel model(camera);
+  const Vec2 size_px = picture_size_px(camera);
+  std::vector<Vec2> seen;
+  for (const Vec3& lamp : lamps_in_wall(site)) {
+    const auto raw_px = model.project(model.camera_from_room() * (site.wall.room_from_wall * lamp));
+    if (raw_px && raw_px->minCoeff() >= 0 && (size_px - *raw_px).minCoeff() > 0)
+      seen.push_back(*raw_px);
+  }
+  return seen;
+}
+
+/// The largest distance of one of the lamps from the mask that is nearest to it, and how many have
+/// none within a mask's radius; and of masks that hide no lamp.
+struct MaskTruth {
+  std::vector<Vec2> lamps_px;
+  double off_px = 0;
+  int missed = 0;
+  int needless = 0;
+};
+
+MaskTruth compare(const std::vector<Vec2>& masks_px, std::vector<Vec2> lamps_px) {
+  const double radius_px = StaticDotsOptions{}.mask_px;
+  const auto nearest_px = [](const Vec2& place, const std::vector<Vec2>& others) {
+    double least_px = 1e9;
+    for (const Vec2& other : others) least_px = std::min(least_px, (other - place).norm());
+    return least_px;
+  };
+  MaskTruth truth;
+  for (const Vec2& lamp : lamps_px) {
+    const double off_px = nearest_px(lamp, masks_px);
+    if (off_px > radius_px)
+      ++truth.missed;
+    else
+      truth.off_px = std::max(truth.off_px, off_px);
+  }
+  for (const Vec2& mask : masks_px) truth.needless += nearest_px(mask, lamps_px) > radius_px;
+  truth.lamps_px = std::move(lamps_px);
+  return truth;
 }
 
 template <class Take>
@@ -44,18 +92,37 @@ std::vector<Vec2> still_dots(const Capture& capture, std::size_t camera, const s
   return dots.masks_px();
 }
 
-int learn(const CalibrateOptions& options) {
-  const Calibrating run = capture(
-      options,
-      {.name = "background",
-       .seconds = 5,
-       .request = "Hide the helmet and leave the room as it will be; some seconds are enough",
-       .body = lamps,
-       .progress =
-           [](const Capture& so_far) {
-             return fmt::format("{} pictures", so_far.observations.size());
-           },
-       .known_cameras = true});
+std::string list_of(const std::vector<Vec2>& places_px) {
+  std::string list;
+  for (const Vec2& place : places_px)
+    list += fmt::format("{}[{:.0f},{:.0f}]", list.empty() ? "" : ",", place.x(), place.y());
+  return list;
+}
+
+std::string truth_json(const MaskTruth& truth) {
+  return fmt::format(R"({{"lamps_px":[{}],"off_px":{:.1f},"missed":{},"needless":{}}})",
+                     list_of(truth.lamps_px), truth.off_px, truth.missed, truth.needless);
+}
+
+void tell(const std::string& camera, const std::vector<Vec2>& masks_px,
+          const std::optional<MaskTruth>& truth, bool json) {
+  if (json) {
+    fmt::print(R"({{"camera":{},"masks_px":[{}],{}}})"
+               "\n",
+               json_text(camera), list_of(masks_px),
+               end_of_json({}, truth ? truth_json(*truth) : ""));
+    return;
+  }
+  fmt::print("{}: {} masked {}\n", camera, masks_px.size(), list_of(masks_px));
+  if (truth)
+    fmt::print(
+        "  the truth: {} in view {}, {} missed, the others at most {:.1f} px off; {} masked "
+        "in vain\n",
+        truth->lamps_px.size() == 1 ? "1 lamp" : fmt::format("{} lamps", truth->lamps_px.size()),
+        list_of(truth->lamps_px), truth->missed, truth->off_px, truth->needless);
+}
+
+void find_masks(const CalibrateOptions& options, const Calibrating& run) {
   std::vector<CameraCalibration> found;
   for (std::size_t i = 0; i < run.site.cameras.size(); ++i) {
     CameraCalibration camera;
@@ -64,19 +131,23 @@ int learn(const CalibrateOptions& options) {
     camera.note.method = "background";
     camera.note.date = date_now();
     camera.note.recording = run.recording;
-    std::string places;
-    for (const Vec2& mask : *camera.masks_px)
-      places += fmt::format("{}[{:.0f},{:.0f}]", places.empty() ? "" : ",", mask.x(), mask.y());
-    if (options.json)
-      fmt::print(R"({{"camera":{},"masks_px":[{}]}})"
-                 "\n",
-                 json_text(camera.camera), places);
-    else
-      fmt::print("{}: {} masked {}\n", camera.camera, camera.masks_px->size(), places);
+    std::optional<MaskTruth> truth;
+    if (run.truth) truth = compare(*camera.masks_px, lamps_px(run.site, run.truth->cameras[i]));
+    tell(camera.camera, *camera.masks_px, truth, options.json);
     found.push_back(std::move(camera));
   }
-  write(options, run, found);
-  return 0;
+  write(options, found);
+}
+
+int learn(const CalibrateOptions& options) {
+  return calibrate(
+      options, load_site(options.wall_file),
+      {.name = "background",
+       .seconds = 5,
+       .request = "Hide the helmet and leave the room as it will be; some seconds are enough",
+       .body = lamps,
+       .known_cameras = true},
+      [&](const Calibrating& run) { find_masks(options, run); });
 }
 
 }  // namespace

@@ -60,35 +60,52 @@ const HeadConfig& head_named(const std::string& name, const Site& site) {
   return *head;
 }
 
-void print(const HeadResult& result, const HeadConfig* truth, bool json) {
-  const HeadConfig& head = result.head;
-  std::string leds;
-  for (const Vec3& led : head.leds_in_head)
-    leds += fmt::format("{}[{:.5f}, {:.5f}, {:.5f}]", leds.empty() ? "" : ", ", led.x(), led.y(),
+std::string list_of(const std::vector<Vec3>& leds_m) {
+  std::string list;
+  for (const Vec3& led : leds_m)
+    list += fmt::format("{}[{:.5f}, {:.5f}, {:.5f}]", list.empty() ? "" : ", ", led.x(), led.y(),
                         led.z());
+  return list;
+}
+
+/// How far off the worst LED is, each from the one found nearest to it.
+double worst_led_mm(const HeadConfig& found, const HeadConfig& truth) {
+  double worst_mm = 0;
+  for (const Vec3& led : truth.leds_in_head) {
+    double nearest_mm = 1e9;
+    for (const Vec3& other : found.leds_in_head)
+      nearest_mm = std::min(nearest_mm, 1e3 * (other - led).norm());
+    worst_mm = std::max(worst_mm, nearest_mm);
+  }
+  return worst_mm;
+}
+
+void tell(const HeadResult& result, const HeadConfig* truth, bool json) {
+  const HeadConfig& head = result.head;
   const Vec3& eye = head.eye_in_head;
+  std::vector<std::string> remarks{layout_remark(head)};
+  std::erase(remarks, "");
+  const double led_off_mm = truth ? worst_led_mm(head, *truth) : 0;
+  const double eye_off_mm = truth ? 1e3 * (truth->eye_in_head - eye).norm() : 0;
   if (json) {
-    fmt::print(R"({{"leds_m":[{}],"eye_m":[{},{},{}],"rms_px":{},"led_sigma_mm":{},"moments":{}}})"
+    const std::string known =
+        truth ? fmt::format(R"({{"leds_m":[{}],"eye_m":{},"led_off_mm":{},"eye_off_mm":{}}})",
+                            list_of(truth->leds_in_head), json_vec(truth->eye_in_head), led_off_mm,
+                            eye_off_mm)
+              : "";
+    fmt::print(R"({{"leds_m":[{}],"eye_m":{},"rms_px":{},"led_sigma_mm":{},"moments":{},{}}})"
                "\n",
-               leds, eye.x(), eye.y(), eye.z(), result.rms_px, result.led_sigma_mm, result.moments);
+               list_of(head.leds_in_head), json_vec(eye), result.rms_px, result.led_sigma_mm,
+               result.moments, end_of_json(remarks, known));
     return;
   }
-  fmt::print("leds_m = [{}]\neye_m = [{:.4f}, {:.4f}, {:.4f}]\n", leds, eye.x(), eye.y(), eye.z());
+  fmt::print("leds_m = [{}]\neye_m = [{:.4f}, {:.4f}, {:.4f}]\n", list_of(head.leds_in_head),
+             eye.x(), eye.y(), eye.z());
   fmt::print("LEDs to {:.1f} mm, rms {:.2f} px of {} moments\n", result.led_sigma_mm, result.rms_px,
              result.moments);
-  if (truth) {
-    double worst_mm = 0;
-    for (const Vec3& led : truth->leds_in_head) {
-      double nearest_mm = 1e9;
-      for (const Vec3& found : head.leds_in_head)
-        nearest_mm = std::min(nearest_mm, 1e3 * (found - led).norm());
-      worst_mm = std::max(worst_mm, nearest_mm);
-    }
-    fmt::print("the truth: LEDs at most {:.1f} mm off, eye {:.1f} mm\n", worst_mm,
-               1e3 * (truth->eye_in_head - eye).norm());
-  }
-  if (const std::string remark = layout_remark(head); !remark.empty())
-    fmt::print("warning: {}\n", remark);
+  if (truth)
+    fmt::print("the truth: LEDs at most {:.1f} mm off, eye {:.1f} mm\n", led_off_mm, eye_off_mm);
+  print_warnings(remarks);
 }
 
 /// Throws Error for an eye where no head has one: wall files take none that is over a metre away.
@@ -111,39 +128,44 @@ void expect_the_emulated_helmet(const HeadCommand& command, const Site& site,
                  "--leds", "leave it out, or give its leds_m in the wall file as many points"});
 }
 
+/// With what emulated cameras know of it, where those look.
+HeadOptions head_options(const HeadCommand& command, const Calibrating& run,
+                         const EmulatedWearer& wearer) {
+  HeadOptions options = command.head;
+  options.leds = command.leds.value_or(options.leds);
+  if (run.truth) {
+    options.leds = static_cast<int>(wearer.head.leds_in_head.size());
+    options.eye_in_room = wearer.place_in_room + wearer.head.eye_in_head;
+  }
+  if (command.eye_in_wall)
+    options.eye_in_room = run.site.wall.room_from_wall * *command.eye_in_wall;
+  return options;
+}
+
 int calibrate_the_head(const HeadCommand& command) {
   const Site site = load_site(command.common.wall_file);
   const HeadConfig& known = head_named(command.name, site);
   expect_the_emulated_helmet(command, site, known);
   const EmulatedWearer wearer(site, known, command.common.seed);
-  CalibrateOptions common = command.common;
-  Calibrating run = capture(
-      common, {.name = "head",
-               .seconds = 40,
-               .request = "Stand still for some seconds, facing the wall; then walk, and turn a "
-                          "little to all sides",
-               .body = [&](const Site&) { return wearer.body(command.common.seed); },
-               .progress =
-                   [&](const Capture& so_far) {
-                     return fmt::format("{} pictures", so_far.observations.size());
-                   },
-               .known_cameras = true});
-  HeadOptions options = command.head;
-  options.leds = command.leds.value_or(options.leds);
-  if (run.truth) options.leds = static_cast<int>(known.leds_in_head.size());
-  if (run.truth && !command.eye_in_wall)
-    options.eye_in_room = wearer.place_in_room + wearer.head.eye_in_head;
-  if (command.eye_in_wall)
-    options.eye_in_room = run.site.wall.room_from_wall * *command.eye_in_wall;
-  const HeadResult result =
-      calibrate_head(run.capture, run.site.cameras, run.site.wall.room_from_wall, known, options);
-  expect_eye_at_the_helmet(result.head.eye_in_head);
-  print(result, run.truth ? &wearer.head : nullptr, command.common.json);
-  HeadCalibration found;
-  found.head = result.head;
-  found.note = {"head", date_now(), run.recording, result.rms_px, 0, result.led_sigma_mm, 0};
-  write(command.common, run, found);
-  return 0;
+  const CaptureWish wish{
+      .name = "head",
+      .seconds = 40,
+      .request =
+          "Stand still for some seconds, facing the wall; then walk, and turn a little to "
+          "all sides",
+      .body = [&](const Site&) { return wearer.body(command.common.seed); },
+      .known_cameras = true};
+  return calibrate(command.common, site, wish, [&](const Calibrating& run) {
+    const HeadResult result =
+        calibrate_head(run.capture, run.site.cameras, run.site.wall.room_from_wall, known,
+                       head_options(command, run, wearer));
+    expect_eye_at_the_helmet(result.head.eye_in_head);
+    tell(result, run.truth ? &wearer.head : nullptr, command.common.json);
+    HeadCalibration found;
+    found.head = result.head;
+    found.note = {"head", date_now(), run.recording, result.rms_px, 0, result.led_sigma_mm, 0};
+    write(command.common, found);
+  });
 }
 
 }  // namespace

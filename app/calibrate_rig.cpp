@@ -12,7 +12,6 @@
 #include "app/cameras.h"
 #include "app/common.h"
 #include "core/error.h"
-#include "core/log.h"
 #include "tracker/calibration/grid.h"
 #include "tracker/calibration/lens.h"
 #include "tracker/camera_model.h"
@@ -76,30 +75,47 @@ void expect_room_for(const Grid& grid, const CameraConfig& camera) {
                      : "take 2,2; larger rigs are for cameras with source = \"video\""});
 }
 
-std::string lens_json(const std::string& name, const LensResult& lens) {
+std::string lens_json(const std::string& name, const LensResult& lens, const std::string& rest) {
   const auto& [k1, k2, p1, p2, k3] = lens.intrinsics.distortion;
   return fmt::format(R"({{"name":{},"focal_px":[{},{}],"focal_sigma_px":{},"centre_px":[{},{}],)"
-                     R"("distortion":[{},{},{},{},{}],"views":{},"rms_px":{},"coverage":{}}})"
+                     R"("distortion":[{},{},{},{},{}],"views":{},"rms_px":{},"coverage":{},{}}})"
                      "\n",
                      json_text(name), lens.intrinsics.fx_px, lens.intrinsics.fy_px,
                      lens.focal_sigma_px, lens.intrinsics.cx_px, lens.intrinsics.cy_px, k1, k2, p1,
-                     p2, k3, lens.views, lens.rms_px, lens.coverage.share());
+                     p2, k3, lens.views, lens.rms_px, lens.coverage.share(), rest);
 }
 
 /// What it replaces may have been better, and the camera's place may hold for that alone.
-void remark_on_before(const CameraConfig& camera, const LensResult& lens) {
-  if (!camera.calibration) return;
+std::vector<std::string> remarks_on_before(const CameraConfig& camera, const LensResult& lens) {
+  std::vector<std::string> remarks;
+  if (!camera.calibration) return remarks;
   const CalibrationNote& before = *camera.calibration;
   if (before.focal_sigma_px > 0 && before.focal_sigma_px < lens.focal_sigma_px)
-    log_warning(
-        camera.name,
-        fmt::format("its focal length was known better, {:.1f} px to {:.1f} px (by {}, {}): "
-                    "what was is kept as cameras.previous.toml",
-                    camera.intrinsics.fx_px, before.focal_sigma_px, before.method, before.date));
+    remarks.push_back(fmt::format(
+        "{}: its focal length was known better, {:.1f} px to {:.1f} px (by {}, {})", camera.name,
+        camera.intrinsics.fx_px, before.focal_sigma_px, before.method, before.date));
   if (before.position_sigma_mm > 0)
-    log_warning(camera.name,
-                "stands where it was found with another lens: find its place again, "
-                "by vindu calibrate wand, wall or extrinsics");
+    remarks.push_back(camera.name +
+                      ": stands where it was found with another lens: find its place again, "
+                      "by vindu calibrate wand, wall or extrinsics");
+  return remarks;
+}
+
+void tell(const CameraConfig& camera, const LensResult& lens, const Intrinsics* truth, bool json) {
+  const auto remarks = remarks_on_before(camera, lens);
+  if (json) {
+    const std::string known =
+        truth ? fmt::format(R"({{"focal_px":[{},{}],"centre_px":[{},{}],"k1":{}}})", truth->fx_px,
+                            truth->fy_px, truth->cx_px, truth->cy_px, truth->distortion[0])
+              : "";
+    fmt::print("{}", lens_json(camera.name, lens, end_of_json(remarks, known)));
+    return;
+  }
+  fmt::print("{}", lens_line(camera.name, lens));
+  if (truth)
+    fmt::print("the truth: focal length {:.1f} px, centre {:.1f}, {:.1f} px, k1 {:.3f}\n",
+               truth->fx_px, truth->cx_px, truth->cy_px, truth->distortion[0]);
+  print_warnings(remarks);
 }
 
 int intrinsics(const RigCommand& command) {
@@ -107,37 +123,32 @@ int intrinsics(const RigCommand& command) {
   const Site site = load_site(command.common.wall_file);
   const std::size_t camera = command.camera.empty() ? 0 : camera_named(command.camera, site);
   expect_room_for(grid, site.cameras.at(camera));
-  const Calibrating run =
-      capture(command.common,
-              {.name = "intrinsics",
-               .seconds = command.lens.views * command.lens.interval_s + 5,
-               .request = "Move the rig about before the camera, tilted all ways, into all corners",
-               .body =
-                   [&](const Site& truth) {
-                     return waved_rig(truth.cameras.at(camera), grid, command.common.seed);
-                   },
-               .progress =
-                   [&](const Capture& so_far) {
-                     return fmt::format("{}: {:.0f} % covered", site.cameras.at(camera).name,
-                                        100 * coverage_so_far(so_far, camera, site));
-                   }});
-  const LensResult lens = calibrate_lens(run.capture, run.site.cameras, camera, grid, command.lens);
-  const std::string& name = run.site.cameras[camera].name;
-  std::fputs((command.common.json ? lens_json(name, lens) : lens_line(name, lens)).c_str(), stdout);
-  if (run.truth && !command.common.json) {
-    const Intrinsics& truth = run.truth->cameras[camera].intrinsics;
-    fmt::print("the truth: focal length {:.1f} px, centre {:.1f}, {:.1f} px, k1 {:.3f}\n",
-               truth.fx_px, truth.cx_px, truth.cy_px, truth.distortion[0]);
-  }
-  if (!command.picture.empty())
-    write_png(coverage_picture({{name, lens.coverage}}), command.picture);
-  remark_on_before(run.site.cameras[camera], lens);
-  CameraCalibration found;
-  found.camera = name;
-  found.intrinsics = lens.intrinsics;
-  found.note = {"intrinsics", date_now(), run.recording, lens.rms_px, lens.focal_sigma_px, 0, 0};
-  write(command.common, run, {found});
-  return 0;
+  const CaptureWish wish{
+      .name = "intrinsics",
+      .seconds = command.lens.views * command.lens.interval_s + 5,
+      .request = "Move the rig about before the camera, tilted all ways, into all corners",
+      .body =
+          [&](const Site& truth) {
+            return waved_rig(truth.cameras.at(camera), grid, command.common.seed);
+          },
+      .progress = {.of_camera = [&](const Capture& so_far, std::size_t other) -> std::string {
+        if (other != camera) return "";
+        return fmt::format("{:.0f} % covered", 100 * coverage_so_far(so_far, camera, site));
+      }}};
+  return calibrate(command.common, site, wish, [&](const Calibrating& run) {
+    const CameraConfig& of_site = run.site.cameras[camera];
+    const LensResult lens =
+        calibrate_lens(run.capture, run.site.cameras, camera, grid, command.lens);
+    tell(of_site, lens, run.truth ? &run.truth->cameras[camera].intrinsics : nullptr,
+         command.common.json);
+    if (!command.picture.empty())
+      write_png(coverage_picture({{of_site.name, lens.coverage}}), command.picture);
+    CameraCalibration found;
+    found.camera = of_site.name;
+    found.intrinsics = lens.intrinsics;
+    found.note = {"intrinsics", date_now(), run.recording, lens.rms_px, lens.focal_sigma_px, 0, 0};
+    write(command.common, {found});
+  });
 }
 
 Rigid3 room_from_rig(const RigCommand& command, const Site& site) {
@@ -165,19 +176,62 @@ double place_sigma_mm(const PlaceResult& place, const Rigid3& rig, const CameraC
 
 /// Nobody measures that wrong: more likely the rig or the cameras are not where they were said to
 /// be. The place may be right all the same, so it is kept.
-void remark_on_place(const CameraConfig& camera, const PlaceResult& place) {
+std::vector<std::string> remarks_on_place(const CameraConfig& camera, const PlaceResult& place) {
   constexpr double kFar_m = 1;
   constexpr double kTurned_deg = 30;
   const Rigid3 off = inverse(camera.room_from_camera) * place.room_from_camera;
   const double away_m = off.translation.norm();
   const double turned_deg = degrees(Eigen::AngleAxisd(off.rotation).angle());
-  if (away_m < kFar_m && turned_deg < kTurned_deg) return;
-  log_warning(
-      camera.name,
-      fmt::format("was found {:.1f} m from where {} has it, turned by {:.0f} degrees: "
-                  "check --rig-at, --rig-heading-deg and --spacing-mm, that no two "
-                  "cameras are exchanged, and the camera's position_m",
-                  away_m, camera.calibration ? "its calibration" : "the wall file", turned_deg));
+  if (away_m < kFar_m && turned_deg < kTurned_deg) return {};
+  return {fmt::format(
+      "{}: was found {:.1f} m from where {} has it, turned by {:.0f} degrees: "
+      "check --rig-at, --rig-heading-deg and --spacing-mm, that no two "
+      "cameras are exchanged, and the camera's position_m",
+      camera.name, away_m, camera.calibration ? "its calibration" : "the wall file", turned_deg)};
+}
+
+void tell(const CameraConfig& camera, const PlaceResult& place, double sigma_mm,
+          const CameraConfig* truth, bool json) {
+  const Vec3& at = place.room_from_camera.translation;
+  const auto remarks = remarks_on_place(camera, place);
+  const Vec3 true_at = truth ? truth->room_from_camera.translation : Vec3::Zero();
+  const double off_mm = 1e3 * (true_at - at).norm();
+  if (json) {
+    const std::string known = truth ? fmt::format(R"({{"position_m":{},"position_off_mm":{}}})",
+                                                  json_vec(true_at), off_mm)
+                                    : "";
+    fmt::print(R"({{"name":{},"position_m":{},"position_sigma_mm":{},"rms_px":{},{}}})"
+               "\n",
+               json_text(camera.name), json_vec(at), sigma_mm, place.rms_px,
+               end_of_json(remarks, known));
+    return;
+  }
+  fmt::print("{}: at {:.3f} {:.3f} {:.3f} m in room, to {:.0f} mm; rms {:.2f} px of {} pictures\n",
+             camera.name, at.x(), at.y(), at.z(), sigma_mm, place.rms_px, place.pictures);
+  if (truth)
+    fmt::print("  the truth: {:.3f} {:.3f} {:.3f} m, {:.0f} mm away\n", true_at.x(), true_at.y(),
+               true_at.z(), off_mm);
+  print_warnings(remarks);
+}
+
+void find_places(const RigCommand& command, const Grid& grid, const Rigid3& rig,
+                 const Calibrating& run) {
+  std::vector<CameraCalibration> found;
+  for (std::size_t i = 0; i < run.site.cameras.size(); ++i) {
+    const CameraConfig& camera = run.site.cameras[i];
+    if (!command.camera.empty() && camera.name != command.camera) continue;
+    const PlaceResult place = calibrate_place(run.capture, run.site.cameras, i, grid, rig);
+    const double sigma_mm = place_sigma_mm(place, rig, camera);
+    tell(camera, place, sigma_mm, run.truth ? &run.truth->cameras[i] : nullptr,
+         command.common.json);
+    CameraCalibration of_camera;
+    of_camera.camera = camera.name;
+    of_camera.room_from_camera = place.room_from_camera;
+    of_camera.note = {"extrinsics", date_now(), run.recording, place.rms_px, focal_sigma_px(camera),
+                      sigma_mm,     0};
+    found.push_back(std::move(of_camera));
+  }
+  write(command.common, found);
 }
 
 int extrinsics(const RigCommand& command) {
@@ -185,48 +239,15 @@ int extrinsics(const RigCommand& command) {
   const Site site = load_site(command.common.wall_file);
   for (const CameraConfig& camera : site.cameras)
     if (command.camera.empty() || camera.name == command.camera) expect_room_for(grid, camera);
-  Rigid3 rig = room_from_rig(command, site);
-  const Calibrating run = capture(
-      command.common,
-      {.name = "extrinsics",
-       .seconds = 3,
-       .request = "Put the rig at its place, its LEDs towards the cameras",
-       .body =
-           [&](const Site&) { return bare_leds(grid.leds_in_rig(), [rig](Time) { return rig; }); },
-       .progress =
-           [&](const Capture& so_far) {
-             return fmt::format("{} pictures", so_far.observations.size());
-           }});
-  std::vector<CameraCalibration> found;
-  for (std::size_t i = 0; i < run.site.cameras.size(); ++i) {
-    if (!command.camera.empty() && run.site.cameras[i].name != command.camera) continue;
-    const PlaceResult place = calibrate_place(run.capture, run.site.cameras, i, grid, rig);
-    const double sigma_mm = place_sigma_mm(place, rig, run.site.cameras[i]);
-    const Vec3& at = place.room_from_camera.translation;
-    CameraCalibration of_camera;
-    of_camera.camera = run.site.cameras[i].name;
-    of_camera.room_from_camera = place.room_from_camera;
-    of_camera.note = {
-        "extrinsics", date_now(), run.recording, place.rms_px, focal_sigma_px(run.site.cameras[i]),
-        sigma_mm,     0};
-    if (command.common.json)
-      fmt::print(R"({{"name":{},"position_m":[{},{},{}],"position_sigma_mm":{},"rms_px":{}}})"
-                 "\n",
-                 json_text(of_camera.camera), at.x(), at.y(), at.z(), sigma_mm, place.rms_px);
-    else
-      fmt::print(
-          "{}: at {:.3f} {:.3f} {:.3f} m in room, to {:.0f} mm; rms {:.2f} px of {} pictures\n",
-          of_camera.camera, at.x(), at.y(), at.z(), sigma_mm, place.rms_px, place.pictures);
-    remark_on_place(run.site.cameras[i], place);
-    if (run.truth && !command.common.json) {
-      const Vec3& truth = run.truth->cameras[i].room_from_camera.translation;
-      fmt::print("  the truth: {:.3f} {:.3f} {:.3f} m, {:.0f} mm away\n", truth.x(), truth.y(),
-                 truth.z(), 1e3 * (truth - at).norm());
-    }
-    found.push_back(std::move(of_camera));
-  }
-  write(command.common, run, found);
-  return 0;
+  const Rigid3 rig = room_from_rig(command, site);
+  const CaptureWish wish{.name = "extrinsics",
+                         .seconds = 3,
+                         .request = "Put the rig at its place, its LEDs towards the cameras",
+                         .body = [&](const Site&) {
+                           return bare_leds(grid.leds_in_rig(), [rig](Time) { return rig; });
+                         }};
+  return calibrate(command.common, site, wish,
+                   [&](const Calibrating& run) { find_places(command, grid, rig, run); });
 }
 
 void add_rig_options(CLI::App& app, RigCommand& command) {

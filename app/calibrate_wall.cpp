@@ -34,7 +34,7 @@ LedBody touching_led(const std::vector<WallTarget>& targets, const Rigid3& room_
   return touching(std::move(points_in_room));
 }
 
-std::string progress_line(const TouchProgress& progress, const std::vector<WallTarget>& targets) {
+std::string progress_text(const TouchProgress& progress, const std::vector<WallTarget>& targets) {
   const std::size_t done = progress.touches.size();
   if (done >= targets.size()) return "all points are touched";
   const std::string request =
@@ -137,27 +137,53 @@ void refuse_unfinished(const TouchProgress& progress, const std::vector<WallTarg
                "one first"});
 }
 
-void print(const std::vector<WallTarget>& targets, const WallFit& fit, bool json) {
-  if (json) {
-    fmt::print("{{\"rms_mm\":{},\"scale\":{},\"residuals_mm\":[{}]}}\n", fit.rms_mm, fit.scale,
-               fmt::join(fit.residuals_mm, ","));
-    return;
+std::vector<std::string> remarks_on_scale(const WallFit& fit) {
+  constexpr double kUsualScale = 0.02;
+  if (std::abs(fit.scale - 1) <= kUsualScale) return {};
+  return {"the cameras' scale is off: was the wand's length right?"};
+}
+
+/// How far one camera, as it was found, is from where it truly stands.
+struct PlaceTruth {
+  std::string camera;
+  double off_mm = 0;
+  double turned_deg = 0;
+};
+
+std::vector<PlaceTruth> truth_of(const std::vector<CameraCalibration>& found,
+                                 const HiddenTruth& truth) {
+  std::vector<PlaceTruth> all;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Rigid3 off = inverse(truth.cameras[i].room_from_camera) * *found[i].room_from_camera;
+    all.push_back({found[i].camera, 1e3 * off.translation.norm(),
+                   degrees(Eigen::AngleAxisd(off.rotation).angle())});
   }
+  return all;
+}
+
+void print(const std::vector<WallTarget>& targets, const WallFit& fit,
+           const std::vector<PlaceTruth>& truth) {
   for (std::size_t i = 0; i < targets.size(); ++i)
     fmt::print("{:<36}{:>8.1f} mm off\n", targets[i].name, fit.residuals_mm[i]);
   fmt::print("rms {:.1f} mm; the wall is {:.2f} % {} than the cameras see it\n", fit.rms_mm,
              100 * std::abs(fit.scale - 1), fit.scale < 1 ? "smaller" : "larger");
-  if (std::abs(fit.scale - 1) > 0.02)
-    fmt::print("The cameras' scale is off: was the wand's length right?\n");
+  print_warnings(remarks_on_scale(fit));
+  for (const PlaceTruth& known : truth)  // thesis 3.4.2: beside what was found
+    fmt::print("the truth: {} is {:.1f} mm and {:.2f} degrees off\n", known.camera, known.off_mm,
+               known.turned_deg);
 }
 
-/// Thesis 3.4.2: in virtual mode what was found stands beside what is true.
-void print_truth(const std::vector<CameraCalibration>& found, const HiddenTruth& truth) {
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const Rigid3 off = inverse(truth.cameras[i].room_from_camera) * *found[i].room_from_camera;
-    fmt::print("the truth: {} is {:.1f} mm and {:.2f} degrees off\n", found[i].camera,
-               1e3 * off.translation.norm(), degrees(Eigen::AngleAxisd(off.rotation).angle()));
-  }
+void print_json(const WallFit& fit, const std::vector<std::string>& remarks,
+                const std::vector<PlaceTruth>& truth) {
+  std::string known;
+  for (const PlaceTruth& of_camera : truth)
+    known += fmt::format(R"({}{{"name":{},"position_off_mm":{},"turned_deg":{}}})",
+                         known.empty() ? "" : ",", json_text(of_camera.camera), of_camera.off_mm,
+                         of_camera.turned_deg);
+  fmt::print(R"({{"rms_mm":{},"scale":{},"residuals_mm":[{}],{}}})"
+             "\n",
+             fit.rms_mm, fit.scale, fmt::join(fit.residuals_mm, ","),
+             end_of_json(remarks, truth.empty() ? "" : "[" + known + "]"));
 }
 
 /// How the cameras stand to each other must be known: the points tell where they stand together.
@@ -169,35 +195,10 @@ void expect_placed_cameras(const Site& site) {
                  "make a wand calibration first: vindu calibrate wand"});
 }
 
-int calibrate_wall(const WallCommand& command) {
-  const Site site = load_site(command.common.wall_file);
-  expect_placed_cameras(site);
-  const auto targets = choose_targets(site, command.targets);
-  if (targets.size() < 3)
-    throw Error({fmt::format("two cameras see {} tile corners together", targets.size()), "wall",
-                 "turn the cameras so that views of two overlap on the wall"});
-  if (targets.size() < static_cast<std::size_t>(command.targets))
-    fmt::print(stderr, "Two cameras see {} tile corners together, not {}.\n", targets.size(),
-               command.targets);
-  fmt::print(stderr, "Hold the only LED still for two seconds at each, in this order:\n");
-  for (const WallTarget& target : targets) fmt::print(stderr, "  {}\n", target.name);
-  warn_of_other_readers(command, site);
-  const TouchPage page = first_page(site, targets);
-  Touching touching(site, targets, page, choose_show(command, site, page));
-  const Calibrating run = capture(
-      command.common,
-      {.name = "wall",
-       .seconds = 3.0 * static_cast<double>(targets.size()) + 1,
-       .request = "Hold the LED to the first point",
-       .body = [&](const Site& truth) { return touching_led(targets, truth.wall.room_from_wall); },
-       .progress = [&](const Capture&) { return progress_line(touching.progress(), targets); },
-       .watching = [&](const Capture& so_far) { return touching.see(so_far); }});
-  touching.see(run.capture);
-  refuse_unfinished(touching.progress(), targets);
-  const WallFit fit = fit_wall(touching.progress().touches, targets, run.site.wall.room_from_wall);
-  print(targets, fit, command.common.json);
+/// All cameras, moved as one.
+std::vector<CameraCalibration> moved_cameras(const Site& site, const WallFit& fit) {
   std::vector<CameraCalibration> found;
-  for (const CameraConfig& camera : run.site.cameras) {
+  for (const CameraConfig& camera : site.cameras) {
     CameraCalibration moved;
     moved.camera = camera.name;
     moved.room_from_camera = fit.room_from_before * camera.room_from_camera;
@@ -208,9 +209,57 @@ int calibrate_wall(const WallCommand& command) {
                                               fit.sigma_mm_at(moved.room_from_camera->translation));
     found.push_back(std::move(moved));
   }
-  if (run.truth && !command.common.json) print_truth(found, *run.truth);
-  write(command.common, run, found);
-  return 0;
+  return found;
+}
+
+/// As many as asked for, or what there are with a remark. Throws Error for fewer than three.
+std::vector<WallTarget> targets_of(const WallCommand& command, const Site& site,
+                                   std::vector<std::string>& remarks) {
+  auto targets = choose_targets(site, command.targets);
+  if (targets.size() < 3)
+    throw Error({fmt::format("two cameras see {} tile corners together", targets.size()), "wall",
+                 "turn the cameras so that views of two overlap on the wall"});
+  if (targets.size() < static_cast<std::size_t>(command.targets)) {
+    remarks.push_back(fmt::format("two cameras see {} tile corners together, not {}",
+                                  targets.size(), command.targets));
+    fmt::print(stderr, "warning: {}\n", remarks.back());
+  }
+  fmt::print(stderr, "Hold the only LED still for two seconds at each, in this order:\n");
+  for (const WallTarget& target : targets) fmt::print(stderr, "  {}\n", target.name);
+  return targets;
+}
+
+int calibrate_wall(const WallCommand& command) {
+  const Site site = load_site(command.common.wall_file);
+  expect_placed_cameras(site);
+  std::vector<std::string> remarks;
+  const auto targets = targets_of(command, site, remarks);
+  warn_of_other_readers(command, site);
+  const TouchPage page = first_page(site, targets);
+  Touching touching(site, targets, page, choose_show(command, site, page));
+  const CaptureWish wish{
+      .name = "wall",
+      .seconds = 3.0 * static_cast<double>(targets.size()) + 1,
+      .request = "Hold the LED to the first point",
+      .body = [&](const Site& truth) { return touching_led(targets, truth.wall.room_from_wall); },
+      .progress = {.of_all =
+                       [&](const Capture&) { return progress_text(touching.progress(), targets); }},
+      .watching = [&](const Capture& so_far) { return touching.see(so_far); }};
+  return calibrate(command.common, site, wish, [&](const Calibrating& run) {
+    touching.see(run.capture);
+    refuse_unfinished(touching.progress(), targets);
+    const WallFit fit =
+        fit_wall(touching.progress().touches, targets, run.site.wall.room_from_wall);
+    const auto found = moved_cameras(run.site, fit);
+    const auto truth = run.truth ? truth_of(found, *run.truth) : std::vector<PlaceTruth>{};
+    if (command.common.json) {
+      for (std::string& remark : remarks_on_scale(fit)) remarks.push_back(std::move(remark));
+      print_json(fit, remarks, truth);
+    } else {
+      print(targets, fit, truth);
+    }
+    write(command.common, found);
+  });
 }
 
 }  // namespace

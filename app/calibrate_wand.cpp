@@ -44,14 +44,6 @@ LedBody emulated_wand(const std::vector<double>& leds_m, const Site& truth, std:
   return bare_leds(leds, waved(wave));
 }
 
-std::string progress_of(const Capture& so_far, const Site& site) {
-  std::string text;
-  for (std::size_t i = 0; i < site.cameras.size(); ++i)
-    text += fmt::format("{}: {:.0f} % covered   ", site.cameras[i].name,
-                        100 * coverage_so_far(so_far, i, site));
-  return text;
-}
-
 /// The same place, seen from the first camera: all that a wand can know.
 Rigid3 from_first(const Rigid3& first, const Rigid3& camera) { return inverse(first) * camera; }
 
@@ -76,34 +68,65 @@ std::string table_of(const WandResult& result) {
       result.poses, result.length_mean_mm, result.length_rms_mm, result.predicted_length_rms_mm,
       100 * result.outliers);
   if (!result.level) text += "No accelerometer at rest: not levelled.\n";
-  for (const std::string& remark : result.remarks) text += remark + "\n";
   return text;
+}
+
+/// What is true of one camera, as a wand can know it, and how far off what was found is.
+struct WandTruth {
+  const CameraConfig& camera;
+  double lag_ms = 0;  ///< of the first camera
+  double off_mm = 0;
+  double turned_deg = 0;
+};
+
+/// Against the first camera, whose own place and lag the wall file says.
+WandTruth truth_of(const WandResult& result, const HiddenTruth& truth, std::size_t camera) {
+  const Rigid3 off =
+      inverse(
+          from_first(truth.cameras[0].room_from_camera, truth.cameras[camera].room_from_camera)) *
+      from_first(result.cameras[0].room_from_camera, result.cameras[camera].room_from_camera);
+  return {.camera = truth.cameras[camera],
+          .lag_ms = truth.cameras[0].lag_ms + milliseconds(truth.late[camera] - truth.late[0]),
+          .off_mm = 1e3 * off.translation.norm(),
+          .turned_deg = degrees(Eigen::AngleAxisd(off.rotation).angle())};
 }
 
 /// Thesis 3.4.2: in virtual mode what was found stands beside what is true.
 std::string truth_table(const WandResult& result, const HiddenTruth& truth) {
-  std::string text =
-      fmt::format("\n{:<12}{:>22}{:>18}{:>18}{:>22}{:>14}\n", "the truth", "focal px (found)",
-                  "centre px off", "k1 (found)", "place off mm (sigma)", "turned deg");
+  std::string text = fmt::format("\n{:<12}{:>22}{:>18}{:>18}{:>22}{:>14}{:>16}\n", "the truth",
+                                 "focal px (found)", "centre px off", "k1 (found)",
+                                 "place off mm (sigma)", "turned deg", "lag ms (found)");
   for (std::size_t i = 0; i < result.cameras.size(); ++i) {
     const WandCamera& found = result.cameras[i];
-    const CameraConfig& true_one = truth.cameras[i];
-    const Rigid3 off =
-        inverse(from_first(truth.cameras[0].room_from_camera, true_one.room_from_camera)) *
-        from_first(result.cameras[0].room_from_camera, found.room_from_camera);
+    const WandTruth known = truth_of(result, truth, i);
+    const Intrinsics& lens = known.camera.intrinsics;
     text += fmt::format(
         "{:<12}{:>13.1f} ({:.1f}){:>10.1f} {:>7.1f}{:>9.3f} ({:>6.3f}){:>16.1f} "
-        "({:.1f}){:>14.3f}\n",
-        found.name, true_one.intrinsics.fx_px, found.intrinsics.fx_px,
-        found.intrinsics.cx_px - true_one.intrinsics.cx_px,
-        found.intrinsics.cy_px - true_one.intrinsics.cy_px, true_one.intrinsics.distortion[0],
-        found.intrinsics.distortion[0], 1e3 * off.translation.norm(),
-        found.position_sigma_mm.norm(), degrees(Eigen::AngleAxisd(off.rotation).angle()));
+        "({:.1f}){:>14.3f}{:>9.1f} ({:.1f})\n",
+        found.name, lens.fx_px, found.intrinsics.fx_px, found.intrinsics.cx_px - lens.cx_px,
+        found.intrinsics.cy_px - lens.cy_px, lens.distortion[0], found.intrinsics.distortion[0],
+        known.off_mm, found.position_sigma_mm.norm(), known.turned_deg, known.lag_ms, found.lag_ms);
   }
-  return text + "Places and turns are against the first camera, whose own the wall file says.\n";
+  return text +
+         "Places, turns and lags are against the first camera, whose own the wall file says.\n";
 }
 
-std::string json_of(const WandResult& result) {
+std::string truth_json(const WandResult& result, const HiddenTruth& truth) {
+  std::string cameras;
+  for (std::size_t i = 0; i < result.cameras.size(); ++i) {
+    const WandTruth known = truth_of(result, truth, i);
+    const Intrinsics& lens = known.camera.intrinsics;
+    cameras +=
+        (cameras.empty() ? "" : ",") +
+        fmt::format(R"({{"name":{},"focal_px":[{},{}],"centre_px":[{},{}],"k1":{},)"
+                    R"("lag_ms":{},"position_off_mm":{},"turned_deg":{}}})",
+                    json_text(known.camera.name), lens.fx_px, lens.fy_px, lens.cx_px, lens.cy_px,
+                    lens.distortion[0], known.lag_ms, known.off_mm, known.turned_deg);
+  }
+  return "[" + cameras + "]";
+}
+
+std::string wand_json(const WandResult& result, const std::string& truth) {
   std::string cameras;
   for (const WandCamera& camera : result.cameras) {
     const auto& [k1, k2, p1, p2, k3] = camera.intrinsics.distortion;
@@ -126,10 +149,10 @@ std::string json_of(const WandResult& result) {
   }
   return fmt::format(
       R"({{"cameras":[{}],"poses":{},"outliers":{},"length_mean_mm":{},"length_rms_mm":{},)"
-      R"("predicted_length_rms_mm":{},"level":{}}})"
+      R"("predicted_length_rms_mm":{},"level":{},{}}})"
       "\n",
       cameras, result.poses, result.outliers, result.length_mean_mm, result.length_rms_mm,
-      result.predicted_length_rms_mm, result.level);
+      result.predicted_length_rms_mm, result.level, end_of_json(result.remarks, truth));
 }
 
 std::vector<CameraCalibration> calibrations_of(const WandResult& result,
@@ -157,26 +180,36 @@ void draw_coverage(const WandResult& result, const std::string& file) {
   fmt::print(stderr, "{}\n", file);
 }
 
+void tell(const WandResult& result, const std::optional<HiddenTruth>& truth, bool json) {
+  if (json) {
+    fmt::print("{}", wand_json(result, truth ? truth_json(result, *truth) : ""));
+    return;
+  }
+  fmt::print("{}", table_of(result));
+  print_warnings(result.remarks);
+  if (truth) fmt::print("{}", truth_table(result, *truth));
+}
+
 int wand(const WandCommand& command) {
   const WandOptions options = wand_options(command);
   const Site site = load_site(command.common.wall_file);
-  const Calibrating run = capture(
-      command.common,
-      {.name = "wand",
-       .seconds = 60,
-       .request = "Wave the wand through all that the cameras see, near and far, turned all ways",
-       .body =
-           [&](const Site& truth) {
-             return emulated_wand(options.leds_m, truth, command.common.seed);
-           },
-       .progress = [&](const Capture& so_far) { return progress_of(so_far, site); }});
-  const WandResult result = calibrate_wand(run.capture, run.site.cameras, options);
-  std::fputs((command.common.json ? json_of(result) : table_of(result)).c_str(), stdout);
-  if (run.truth && !command.common.json)
-    std::fputs(truth_table(result, *run.truth).c_str(), stdout);
-  if (!command.picture.empty()) draw_coverage(result, command.picture);
-  write(command.common, run, calibrations_of(result, run.recording));
-  return 0;
+  const CaptureWish wish{
+      .name = "wand",
+      .seconds = 60,
+      .request = "Wave the wand through all that the cameras see, near and far, turned all ways",
+      .body =
+          [&](const Site& truth) {
+            return emulated_wand(options.leds_m, truth, command.common.seed);
+          },
+      .progress = {.of_camera = [&](const Capture& so_far, std::size_t camera) {
+        return fmt::format("{:.0f} % covered", 100 * coverage_so_far(so_far, camera, site));
+      }}};
+  return calibrate(command.common, site, wish, [&](const Calibrating& run) {
+    const WandResult result = calibrate_wand(run.capture, run.site.cameras, options);
+    tell(result, run.truth, command.common.json);
+    if (!command.picture.empty()) draw_coverage(result, command.picture);
+    write(command.common, calibrations_of(result, run.recording));
+  });
 }
 
 }  // namespace

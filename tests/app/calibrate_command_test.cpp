@@ -53,9 +53,63 @@ TEST_F(CalibrateCommand, OfALensThatWasKnownBetterSaysSo) {
   const ProcessResult result =
       vindu({"calibrate", "intrinsics", "--wall", wall_, "--camera", "right"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, AllOf(HasSubstr("right: its focal length was known better"),
-                                HasSubstr("cameras.previous.toml"),
+  EXPECT_THAT(result.out, AllOf(HasSubstr("right: its focal length was known better"),
                                 HasSubstr("right: stands where it was found with another lens")));
+}
+
+TEST_F(CalibrateCommand, WarnsOnceOfACalibrationOfACameraThatIsNoMore) {
+  std::filesystem::create_directories(path("calibration"));
+  write("calibration/cameras.toml", "[[calibrated_camera]]\nname = \"gone\"\nlag_ms = 1\n");
+  for (const char* kind : {"intrinsics", "extrinsics", "background"}) {
+    const ProcessResult result = vindu({"calibrate", kind, "--wall", wall_, "--dry-run"});
+    EXPECT_THAT(lines_of(result.err), ::testing::ElementsAre(HasSubstr("\"gone\""))) << kind;
+  }
+}
+
+TEST_F(CalibrateCommand, ByLiveCamerasThatFailsNamesItsRecordingAndHowToGoOn) {
+  const std::string wall = write(
+      "live.toml",
+      bytes_of(wall_) +
+          "\n[[camera]]\nname = \"ghost\"\nsource = \"wiimote\"\naddress = \"00:11:22:33:44:55\"\n"
+          "position_m = [0, 2.3, 5]\nlook_at_m = [0, 1.65, 2]\n");
+  const ProcessResult result = vindu({"calibrate", "wand", "--wall", wall, "--seconds", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  ASSERT_THAT(files_in("calibration"), ::testing::SizeIs(1));
+  const std::string recording = path("calibration/" + files_in("calibration")[0]);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("camera ghost: never saw the wand"), HasSubstr("--from " + recording)));
+  const ProcessResult again = vindu({"calibrate", "wand", "--wall", wall, "--from", recording});
+  EXPECT_THAT(again.err,
+              AllOf(HasSubstr("camera ghost: never saw the wand"), ::testing::Not(HasSubstr("--from"))));
+}
+
+TEST_F(CalibrateCommand, ByLiveCamerasThatAreNotThereKeepsNoRecording) {
+  std::string wall = bytes_of(wall_);
+  for (std::size_t at = 0; (at = wall.find("\"emulated\"", at)) != std::string::npos;)
+    wall.replace(at, 10, "\"wiimote\"");
+  const ProcessResult result =
+      vindu({"calibrate", "wand", "--wall", write("dead.toml", wall), "--seconds", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("cameras: none of them sent anything"));
+  EXPECT_THAT(files_in("calibration"), IsEmpty());
+}
+
+TEST_F(CalibrateCommand, AsJsonHasWhatIsTrueBesideWhatWasFound) {
+  const std::string wand = vindu({"calibrate", "wand", "--wall", wall_, "--json"}).out;
+  const std::size_t truth = wand.find("\"truth\"");
+  ASSERT_NE(truth, std::string::npos) << wand;
+  const std::size_t found_right = wand.find("\"right\""),
+                    true_right = wand.find("\"right\"", truth);
+  EXPECT_GT(std::abs(number_after(wand, "lag_ms", true_right) - 6), 0.1);
+  EXPECT_NEAR(number_after(wand, "lag_ms", found_right), number_after(wand, "lag_ms", true_right),
+              1);
+  EXPECT_LT(number_after(wand, "position_off_mm", true_right), 15);
+  for (const char* kind : {"wall", "head", "intrinsics", "extrinsics", "background"}) {
+    const ProcessResult result = vindu({"calibrate", kind, "--wall", wall_, "--json", "--dry-run"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    for (const std::string& line : lines_of(result.out))
+      EXPECT_THAT(line, AllOf(HasSubstr("\"warnings\":["), HasSubstr("\"truth\":"))) << kind;
+  }
 }
 
 TEST_F(CalibrateCommand, OfTheWallDrawsWhatItShowsPointByPoint) {
@@ -75,7 +129,7 @@ TEST_F(CalibrateCommand, OfTheWallSaysWhereItHasFewerPointsThanAskedFor) {
   const ProcessResult result =
       vindu({"calibrate", "wall", "--wall", wall_, "--targets", "20", "--dry-run"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("Two cameras see 12 tile corners together, not 20."));
+  EXPECT_THAT(result.err, HasSubstr("warning: two cameras see 12 tile corners together, not 20"));
 }
 
 TEST_F(CalibrateCommand, OfTheWallInAWindowRunsToItsEnd) {
@@ -119,7 +173,12 @@ TEST_F(CalibrateCommand, OfAHeadRefusesAnEyeThatNoHeadHas) {
 TEST_F(CalibrateCommand, OfTheBackgroundMasksLampsAndRefusesAHelmetThatWalksAbout) {
   const ProcessResult lamps = vindu({"calibrate", "background", "--wall", wall_});
   EXPECT_EQ(lamps.exit_code, 0) << lamps.err;
-  EXPECT_THAT(lamps.out, HasSubstr("left: 1 masked"));
+  EXPECT_THAT(lamps.out,
+              AllOf(HasSubstr("left: 1 masked"), HasSubstr("the truth: 1 lamp in view")));
+  const std::string json = vindu({"calibrate", "background", "--wall", wall_, "--json"}).out;
+  EXPECT_EQ(number_after(json, "missed"), 0);
+  EXPECT_EQ(number_after(json, "needless"), 0);
+  EXPECT_LT(number_after(json, "off_px"), 1.5);
   ASSERT_EQ(
       vindu({"record", "--out", path("walk.vrec"), "--wall", wall_, "--seconds", "8"}).exit_code,
       0);
@@ -156,10 +215,10 @@ TEST_F(CalibrateCommand, OfAPlaceFarFromWhereTheCameraWasSaysSo) {
   const ProcessResult result =
       vindu({"calibrate", "extrinsics", "--wall", wall_, "--spacing-mm", "250", "--dry-run"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err,
+  EXPECT_THAT(result.out,
               AllOf(HasSubstr("left: was found 7.0 m from where its calibration has it, turned by"),
                     HasSubstr("--rig-at")));
-  EXPECT_THAT(result.err, ::testing::Not(HasSubstr("right")));
+  EXPECT_THAT(result.out, ::testing::Not(HasSubstr("right: was found")));
 }
 
 TEST_F(CalibrateCommand, ByARecordingOfCamerasThatWereOffIsRefused) {

@@ -208,13 +208,13 @@ std::vector<std::string> doubts_of(const WandResult& result, double size_ratio) 
   std::vector<std::string> doubts;
   if (std::abs(size_ratio - 1) > kUsualSize)
     doubts.push_back(fmt::format(
-        "warning: the cameras stand {:.2f} times as far apart as the wall file says; if "
+        "the cameras stand {:.2f} times as far apart as the wall file says; if "
         "its position_m are good, measure the wand again",
         size_ratio));
   if (const double scatter = result.length_rms_mm / result.predicted_length_rms_mm;
       scatter > kUsualScatter)
     doubts.push_back(
-        fmt::format("warning: the wand's length scatters by {:.1f} times what its dots' noise "
+        fmt::format("the wand's length scatters by {:.1f} times what its dots' noise "
                     "makes; if a camera moved meanwhile, or the wand bends, wave again",
                     scatter));
   return doubts;
