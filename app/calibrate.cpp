@@ -149,6 +149,16 @@ bool may_write(const CalibrateOptions& options) {
   return !options.dry_run && !options.wall_file.empty();
 }
 
+/// `name` of the file: what it said before goes to another.
+template <class Found>
+void write_beside(const CalibrateOptions& options, const std::string& name, const Found& found) {
+  if (!may_write(options)) return;
+  const bool replaced = std::filesystem::exists(
+      fmt::format("{}/{}.toml", calibration_folder(options.wall_file), name));
+  fmt::print(stderr, "Written to {}{}\n", write_calibration(options.wall_file, found),
+             replaced ? fmt::format("; what it said is kept as {}.previous.toml", name) : "");
+}
+
 }  // namespace
 
 void add_calibrate_options(CLI::App& app, CalibrateOptions& options) {
@@ -164,7 +174,11 @@ void add_calibrate_options(CLI::App& app, CalibrateOptions& options) {
   app.add_option("--noise-px", options.noise_px, "Of emulated cameras (default: 0.6)")
       ->check(between(0.0, 20.0));
   app.add_flag("--json", options.json, "Figures as JSON");
-  app.add_flag("--dry-run", options.dry_run, "Write nothing");
+  app.add_flag("--dry-run", options.dry_run, "Write no calibration");
+}
+
+void add_picture_option(CLI::App& app, CalibrateOptions& options, const std::string& what) {
+  app.add_option("--picture", options.picture, what)->type_name("")->check(png_name());
 }
 
 int calibrate(const CalibrateOptions& options, const Site& site, const CaptureWish& wish,
@@ -206,22 +220,31 @@ std::string end_of_json(const std::vector<std::string>& warnings, const std::str
 }
 
 void write(const CalibrateOptions& options, const std::vector<CameraCalibration>& cameras) {
-  if (may_write(options))
-    fmt::print(stderr, "Written to {}\n", write_calibration(options.wall_file, cameras));
+  write_beside(options, "cameras", cameras);
 }
 
 void write(const CalibrateOptions& options, const HeadCalibration& head) {
-  if (may_write(options))
-    fmt::print(stderr, "Written to {}\n", write_calibration(options.wall_file, head));
+  write_beside(options, "heads", head);
 }
 
-double coverage_so_far(const Capture& capture, std::size_t camera, const Site& site) {
-  const Vec2 size_px = picture_size_px(site.cameras[camera]);
+Coverage coverage_so_far(const Capture& capture, std::size_t camera, const Site& site) {
+  const CameraConfig& config = site.cameras[camera];
   Coverage coverage;
   for (const Observation& seen : capture.observations)
     if (static_cast<std::size_t>(seen.camera) == camera)
-      for (const Dot& dot : seen.dots) coverage.add({dot.x_px, dot.y_px}, size_px);
-  return coverage.share();
+      for (const Dot& dot : seen.dots)
+        coverage.add(image_from_raw(config.source, raw_px_of(dot)), picture_size_px(config));
+  return coverage;
+}
+
+std::string covered_so_far(const Capture& capture, std::size_t camera, const Site& site) {
+  return fmt::format("{:.0f} % covered", 100 * coverage_so_far(capture, camera, site).share());
+}
+
+void draw(const CalibrateOptions& options, const std::vector<CoveragePanel>& panels) {
+  if (options.picture.empty()) return;
+  write_png(coverage_picture(panels), options.picture);
+  fmt::print(stderr, "{}\n", options.picture);
 }
 
 void add_calibrate(CLI::App& parent, Action& chosen) {

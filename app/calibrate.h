@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/calibrate_picture.h"
 #include "app/calibrate_progress.h"
 #include "app/commands.h"
 #include "core/calibration.h"
@@ -24,10 +25,13 @@ struct CalibrateOptions {
   double noise_px = 0.6;  ///< of emulated cameras
   bool json = false;
   bool dry_run = false;
+  std::string picture;  ///< file
 };
 
 /// --wall, --from, --seconds, --seed, --noise-px, --json, --dry-run
 void add_calibrate_options(CLI::App& app, CalibrateOptions& options);
+/// --picture; `what` it shows.
+void add_picture_option(CLI::App& app, CalibrateOptions& options, const std::string& what);
 
 /// What was seen and, where all cameras are emulated, what is true: near to what the wall file says
 /// without its calibration, the same for each calibration of one seed.
@@ -69,8 +73,13 @@ std::string end_of_json(const std::vector<std::string>& warnings, const std::str
 void write(const CalibrateOptions& options, const std::vector<CameraCalibration>& cameras);
 void write(const CalibrateOptions& options, const HeadCalibration& head);
 
-/// Share of the picture that a camera's dots have covered so far.
-double coverage_so_far(const Capture& capture, std::size_t camera, const Site& site);
+/// Where in its picture a camera has had dots so far.
+Coverage coverage_so_far(const Capture& capture, std::size_t camera, const Site& site);
+/// Progress of a camera in which something is waved.
+std::string covered_so_far(const Capture& capture, std::size_t camera, const Site& site);
+
+/// Draws them where --picture asks for it, and says where.
+void draw(const CalibrateOptions& options, const std::vector<CoveragePanel>& panels);
 
 void add_calibrate_wand(CLI::App& calibrate, Action& chosen);
 void add_calibrate_intrinsics(CLI::App& calibrate, Action& chosen);

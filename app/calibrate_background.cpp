@@ -122,8 +122,19 @@ void tell(const std::string& camera, const std::vector<Vec2>& masks_px,
         list_of(truth->lamps_px), truth->missed, truth->off_px, truth->needless);
 }
 
+/// Each mask as large as it is.
+CoveragePanel panel_of(const CameraConfig& camera, const std::vector<Vec2>& masks_px) {
+  CoveragePanel panel{.title = fmt::format("{}: {} masked", camera.name, masks_px.size()),
+                      .size_px = picture_size_px(camera)};
+  for (const Vec2& mask : masks_px)
+    panel.marks.push_back({image_from_raw(camera.source, mask), StaticDotsOptions{}.mask_px,
+                           fmt::format("{:.0f},{:.0f}", mask.x(), mask.y())});
+  return panel;
+}
+
 void find_masks(const CalibrateOptions& options, const Calibrating& run) {
   std::vector<CameraCalibration> found;
+  std::vector<CoveragePanel> panels;
   for (std::size_t i = 0; i < run.site.cameras.size(); ++i) {
     CameraCalibration camera;
     camera.camera = run.site.cameras[i].name;
@@ -134,8 +145,11 @@ void find_masks(const CalibrateOptions& options, const Calibrating& run) {
     std::optional<MaskTruth> truth;
     if (run.truth) truth = compare(*camera.masks_px, lamps_px(run.site, run.truth->cameras[i]));
     tell(camera.camera, *camera.masks_px, truth, options.json);
+    panels.push_back(panel_of(run.site.cameras[i], *camera.masks_px));
+    panels.back().coverage = coverage_so_far(run.capture, i, run.site);
     found.push_back(std::move(camera));
   }
+  draw(options, panels);
   write(options, found);
 }
 
@@ -157,6 +171,7 @@ void add_calibrate_background(CLI::App& calibrate, Action& chosen) {
   CLI::App* app = calibrate.add_subcommand(
       "background", "Which bright spots are no LEDs: with the helmet hidden");
   add_calibrate_options(*app, *options);
+  add_picture_option(*app, *options, "What is masked in each camera's view");
   app->footer(
       "\nExamples:\n"
       "  vindu calibrate background --wall wall.toml --seconds 5\n");

@@ -11,6 +11,7 @@
 #include "app/site_remarks.h"
 #include "core/error.h"
 #include "tracker/calibration/head.h"
+#include "tracker/camera_model.h"
 
 namespace vindu::app {
 namespace {
@@ -142,6 +143,20 @@ HeadOptions head_options(const HeadCommand& command, const Calibrating& run,
   return options;
 }
 
+/// Where each camera saw the helmet, not what stood still.
+std::vector<CoveragePanel> panels_of(const Calibrating& run) {
+  std::vector<CoveragePanel> panels;
+  const auto tracks = moving_dots(run.capture, run.site.cameras);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    Coverage coverage;
+    for (const CameraTrack::Picture& picture : tracks[i].pictures)
+      for (const Vec2& dot : picture.dots_px)
+        coverage.add(dot, picture_size_px(run.site.cameras[i]));
+    panels.push_back(covered_panel(run.site.cameras[i].name, coverage));
+  }
+  return panels;
+}
+
 int calibrate_the_head(const HeadCommand& command) {
   const Site site = load_site(command.common.wall_file);
   const HeadConfig& known = head_named(command.name, site);
@@ -161,6 +176,7 @@ int calibrate_the_head(const HeadCommand& command) {
                        head_options(command, run, wearer));
     expect_eye_at_the_helmet(result.head.eye_in_head);
     tell(result, run.truth ? &wearer.head : nullptr, command.common.json);
+    draw(command.common, panels_of(run));
     HeadCalibration found;
     found.head = result.head;
     found.note = {"head", date_now(), run.recording, result.rms_px, 0, result.led_sigma_mm, 0};
@@ -182,6 +198,7 @@ void add_calibrate_head(CLI::App& calibrate, Action& chosen) {
   app->add_option("--still-s", command->head.still_s,
                   "So long the wearer stands still at first, facing the wall (default: 2)")
       ->check(between(0.5, 60.0));
+  add_picture_option(*app, command->common, "Where in its view each camera saw the helmet");
   add_vec3(*app, "--eye-at", command->eye_in_wall,
            "Where the point between the eyes is meanwhile, in wall (default: eye_m stays)");
   app->footer(

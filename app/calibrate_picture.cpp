@@ -26,29 +26,51 @@ Rgba8 colour_of(int count) {
   return {level(20, 120), level(70, 200), level(40, 110), 255};
 }
 
-void draw_panel(Image& image, int left, const CoveragePanel& panel) {
-  draw_text(image, left + kRim_px, kRim_px / 2,
-            fmt::format("{}: {:.0f} % covered", panel.title, 100 * panel.coverage.share()),
-            {22, kBright, true});
+/// A panel's picture is as wide as its cells, whatever the camera's is.
+void draw_mark(const PictureMark& mark, const CoveragePanel& panel, const Vec2& picture_at_px,
+               Diagram& drawing) {
+  constexpr double kRing_px = 6;
+  constexpr int kSides = 32;
+  const Vec2 scale(Coverage::kColumns * kCell_px / panel.size_px.x(),
+                   Coverage::kRows * kCell_px / panel.size_px.y());
+  const Vec2 centre_px = picture_at_px + mark.image_px.cwiseProduct(scale);
+  drawing.disc(centre_px, mark.radius_px * scale.x(), kYellow);
+  const auto on_ring = [&](int side) -> Vec2 {
+    const double angle_rad = 2 * kPi * side / kSides;
+    return centre_px + kRing_px * Vec2(std::cos(angle_rad), std::sin(angle_rad));
+  };
+  for (const auto& [width_px, colour] : {std::pair{4, kInk}, std::pair{2, kYellow}})
+    for (int side = 0; side < kSides; ++side)
+      drawing.line(on_ring(side), on_ring(side + 1), width_px, colour);
+  drawing.text(centre_px + Vec2(kRing_px + 1, -kRing_px - 8), mark.name, {14, kBright, true});
+}
+
+void draw_panel(const CoveragePanel& panel, int left_px, Diagram& drawing) {
+  const Vec2 picture_at_px(left_px + kRim_px, kRim_px + kTitle_px);
+  drawing.text({left_px + kRim_px, kRim_px / 2}, panel.title, {22, kBright, true});
   for (int row = 0; row < Coverage::kRows; ++row)
     for (int column = 0; column < Coverage::kColumns; ++column) {
       const int count =
           panel.coverage.dots[static_cast<std::size_t>(row) * Coverage::kColumns + column];
-      const int x = left + kRim_px + column * kCell_px;
-      const int y = kRim_px + kTitle_px + row * kCell_px;
-      paste(Image::filled(kCell_px - 2, kCell_px - 2, colour_of(count)), x, y, image);
-      draw_text(image, x + 6, y + kCell_px - 24, std::to_string(count), {15, kBright});
+      const Vec2 at_px = picture_at_px + kCell_px * Vec2(column, row);
+      drawing.rectangle(at_px, at_px + Vec2::Constant(kCell_px - 2), colour_of(count));
+      drawing.text(at_px + Vec2(6, kCell_px - 24), std::to_string(count), {15, kBright});
     }
+  for (const PictureMark& mark : panel.marks) draw_mark(mark, panel, picture_at_px, drawing);
 }
 
 }  // namespace
 
+CoveragePanel covered_panel(const std::string& camera, const Coverage& coverage) {
+  return {.title = fmt::format("{}: {:.0f} % covered", camera, 100 * coverage.share()),
+          .coverage = coverage};
+}
+
 Image coverage_picture(const std::vector<CoveragePanel>& panels) {
-  Image image =
-      Image::filled(static_cast<int>(panels.size()) * kPanelWidth_px, kPanelHeight_px, kDarkPaper);
+  Diagram drawing({static_cast<int>(panels.size()) * kPanelWidth_px, kPanelHeight_px}, kDarkPaper);
   for (std::size_t i = 0; i < panels.size(); ++i)
-    draw_panel(image, static_cast<int>(i) * kPanelWidth_px, panels[i]);
-  return image;
+    draw_panel(panels[i], static_cast<int>(i) * kPanelWidth_px, drawing);
+  return drawing.image();
 }
 
 }  // namespace vindu::app

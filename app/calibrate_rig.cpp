@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "app/calibrate.h"
-#include "app/calibrate_picture.h"
 #include "app/cameras.h"
 #include "app/common.h"
 #include "core/error.h"
@@ -25,7 +24,6 @@ struct RigCommand {
   std::vector<double> spacing_mm = {91.44};
   std::string camera;
   LensOptions lens;
-  std::string picture;
   std::optional<Vec3> rig_in_room;
   double rig_heading_deg = 0;
 };
@@ -133,7 +131,7 @@ int intrinsics(const RigCommand& command) {
           },
       .progress = {.of_camera = [&](const Capture& so_far, std::size_t other) -> std::string {
         if (other != camera) return "";
-        return fmt::format("{:.0f} % covered", 100 * coverage_so_far(so_far, camera, site));
+        return covered_so_far(so_far, camera, site);
       }}};
   return calibrate(command.common, site, wish, [&](const Calibrating& run) {
     const CameraConfig& of_site = run.site.cameras[camera];
@@ -141,8 +139,7 @@ int intrinsics(const RigCommand& command) {
         calibrate_lens(run.capture, run.site.cameras, camera, grid, command.lens);
     tell(of_site, lens, run.truth ? &run.truth->cameras[camera].intrinsics : nullptr,
          command.common.json);
-    if (!command.picture.empty())
-      write_png(coverage_picture({{of_site.name, lens.coverage}}), command.picture);
+    draw(command.common, {covered_panel(of_site.name, lens.coverage)});
     CameraCalibration found;
     found.camera = of_site.name;
     found.intrinsics = lens.intrinsics;
@@ -214,9 +211,20 @@ void tell(const CameraConfig& camera, const PlaceResult& place, double sigma_mm,
   print_warnings(remarks);
 }
 
+/// The rig's LEDs by their numbers in the grid, from 1.
+CoveragePanel panel_of(const CameraConfig& camera, const PlaceResult& place) {
+  constexpr double kDot_px = 5;
+  CoveragePanel panel{.title = fmt::format("{}: rms {:.2f} px", camera.name, place.rms_px),
+                      .size_px = picture_size_px(camera)};
+  for (const Vec2& dot : place.dots_px)
+    panel.marks.push_back({dot, kDot_px, std::to_string(panel.marks.size() + 1)});
+  return panel;
+}
+
 void find_places(const RigCommand& command, const Grid& grid, const Rigid3& rig,
                  const Calibrating& run) {
   std::vector<CameraCalibration> found;
+  std::vector<CoveragePanel> panels;
   for (std::size_t i = 0; i < run.site.cameras.size(); ++i) {
     const CameraConfig& camera = run.site.cameras[i];
     if (!command.camera.empty() && camera.name != command.camera) continue;
@@ -224,6 +232,8 @@ void find_places(const RigCommand& command, const Grid& grid, const Rigid3& rig,
     const double sigma_mm = place_sigma_mm(place, rig, camera);
     tell(camera, place, sigma_mm, run.truth ? &run.truth->cameras[i] : nullptr,
          command.common.json);
+    panels.push_back(panel_of(camera, place));
+    panels.back().coverage = coverage_so_far(run.capture, i, run.site);
     CameraCalibration of_camera;
     of_camera.camera = camera.name;
     of_camera.room_from_camera = place.room_from_camera;
@@ -231,6 +241,7 @@ void find_places(const RigCommand& command, const Grid& grid, const Rigid3& rig,
                       sigma_mm,     0};
     found.push_back(std::move(of_camera));
   }
+  draw(command.common, panels);
   write(command.common, found);
 }
 
@@ -276,9 +287,7 @@ void add_calibrate_intrinsics(CLI::App& calibrate, Action& chosen) {
   app->add_option("--views", command->lens.views, "Default: 30")->check(CLI::Range(10, 300));
   app->add_option("--interval-s", command->lens.interval_s, "Between views (default: 0.5)")
       ->check(between(0.05, 60.0));
-  app->add_option("--picture", command->picture, "What the camera has seen of its view")
-      ->type_name("")
-      ->check(png_name());
+  add_picture_option(*app, command->common, "What the camera has seen of its view");
   app->footer(
       "\nExamples:\n"
       "  vindu calibrate intrinsics --wall wall.toml --camera left\n"
@@ -292,6 +301,7 @@ void add_calibrate_extrinsics(CLI::App& calibrate, Action& chosen) {
       "extrinsics", "Where cameras stand, from a rig of LEDs that stands at a known place");
   add_rig_options(*app, *command);
   app->add_option("--camera", command->camera, "Only this one (default: all)");
+  add_picture_option(*app, command->common, "Where in its view each camera sees the rig's LEDs");
   add_vec3(*app, "--rig-at", command->rig_in_room, "The rig's middle in room, metres");
   app->add_option("--rig-heading-deg", command->rig_heading_deg,
                   "Its turn about the vertical; 0: its LEDs face away from the wall")

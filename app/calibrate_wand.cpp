@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "app/calibrate.h"
-#include "app/calibrate_picture.h"
 #include "app/common.h"
 #include "core/error.h"
 
@@ -18,7 +17,6 @@ struct WandCommand {
   std::vector<double> leds_mm = {0, 150, 500};
   int poses = 1000;
   bool ignore_places = false;
-  std::string picture;
 };
 
 WandOptions wand_options(const WandCommand& command) {
@@ -173,11 +171,11 @@ std::vector<CameraCalibration> calibrations_of(const WandResult& result,
   return found;
 }
 
-void draw_coverage(const WandResult& result, const std::string& file) {
+std::vector<CoveragePanel> panels_of(const WandResult& result) {
   std::vector<CoveragePanel> panels;
-  for (const WandCamera& camera : result.cameras) panels.push_back({camera.name, camera.coverage});
-  write_png(coverage_picture(panels), file);
-  fmt::print(stderr, "{}\n", file);
+  for (const WandCamera& camera : result.cameras)
+    panels.push_back(covered_panel(camera.name, camera.coverage));
+  return panels;
 }
 
 void tell(const WandResult& result, const std::optional<HiddenTruth>& truth, bool json) {
@@ -202,12 +200,12 @@ int wand(const WandCommand& command) {
             return emulated_wand(options.leds_m, truth, command.common.seed);
           },
       .progress = {.of_camera = [&](const Capture& so_far, std::size_t camera) {
-        return fmt::format("{:.0f} % covered", 100 * coverage_so_far(so_far, camera, site));
+        return covered_so_far(so_far, camera, site);
       }}};
   return calibrate(command.common, site, wish, [&](const Calibrating& run) {
     const WandResult result = calibrate_wand(run.capture, run.site.cameras, options);
     tell(result, run.truth, command.common.json);
-    if (!command.picture.empty()) draw_coverage(result, command.picture);
+    draw(command.common, panels_of(result));
     write(command.common, calibrations_of(result, run.recording));
   });
 }
@@ -228,9 +226,7 @@ void add_calibrate_wand(CLI::App& calibrate, Action& chosen) {
       ->check(CLI::Range(60, 20000));
   app->add_flag("--ignore-places", command->ignore_places,
                 "The cameras' places in the wall file are guesses: any size is believed");
-  app->add_option("--picture", command->picture, "What each camera has seen of its view")
-      ->type_name("")
-      ->check(png_name());
+  add_picture_option(*app, command->common, "What each camera has seen of its view");
   app->footer(
       "\nExamples:\n"
       "  vindu calibrate wand --wall wall.toml --leds-mm 0,150,500 --picture seen.png\n"

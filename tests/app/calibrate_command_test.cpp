@@ -22,6 +22,11 @@ class CalibrateCommand : public AppTest {
   const std::string wall_;
 };
 
+/// That is drawn in this colour.
+bool has_colour(const std::string& png, const Rgba8& colour) {
+  return std::ranges::count(read_png(png).pixels, colour) > 20;
+}
+
 TEST_F(CalibrateCommand, ByAWandWritesWhatCheckThenShows) {
   const ProcessResult result =
       vindu({"calibrate", "wand", "--wall", wall_, "--picture", path("seen.png")});
@@ -55,6 +60,16 @@ TEST_F(CalibrateCommand, OfALensThatWasKnownBetterSaysSo) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("right: its focal length was known better"),
                                 HasSubstr("right: stands where it was found with another lens")));
+  EXPECT_THAT(result.err, HasSubstr("what it said is kept as cameras.previous.toml"));
+}
+
+TEST_F(CalibrateCommand, OfALensInADryRunKeepsNothingAndSaysSoNowhere) {
+  ASSERT_EQ(vindu({"calibrate", "wand", "--wall", wall_}).exit_code, 0);
+  const ProcessResult result =
+      vindu({"calibrate", "intrinsics", "--wall", wall_, "--json", "--dry-run"});
+  EXPECT_THAT(result.out, HasSubstr(R"("warnings":["left: its focal length was known better)"));
+  EXPECT_THAT(result.out + result.err, ::testing::Not(HasSubstr("previous")));
+  EXPECT_THAT(files_in("calibration"), ::testing::ElementsAre("cameras.toml"));
 }
 
 TEST_F(CalibrateCommand, WarnsOnceOfACalibrationOfACameraThatIsNoMore) {
@@ -109,6 +124,18 @@ TEST_F(CalibrateCommand, AsJsonHasWhatIsTrueBesideWhatWasFound) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     for (const std::string& line : lines_of(result.out))
       EXPECT_THAT(line, AllOf(HasSubstr("\"warnings\":["), HasSubstr("\"truth\":"))) << kind;
+  }
+}
+
+TEST_F(CalibrateCommand, DrawsWhatItSaw) {
+  const Rgba8 mark{240, 228, 66, 255}, never{70, 28, 28, 255};
+  for (const char* kind : {"extrinsics", "head", "background"}) {
+    const std::string picture = path(std::string(kind) + ".png");
+    const ProcessResult result =
+        vindu({"calibrate", kind, "--wall", wall_, "--picture", picture, "--dry-run"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(has_colour(picture, never)) << kind;
+    EXPECT_EQ(has_colour(picture, mark), std::string(kind) != "head") << kind;
   }
 }
 

@@ -263,7 +263,7 @@ PlaceResult calibrate_place(const Capture& capture, const std::vector<CameraConf
     least = cost;
     const Eigen::VectorXd sigma = problem.sigma(view[0].camera_from_rig.translation.data(), 3);
     best = {room_from_camera, problem.rms(), sigma.size() == 3 ? 1e3 * sigma.norm() : 0,
-            static_cast<int>(seen.size())};
+            static_cast<int>(seen.size()), mean.dots_px};
   }
   if (!(best.rms_px < 3) || least > 1e200)
     throw Error(

@@ -55,6 +55,7 @@ struct PlaceResult {
   double rms_px = 0;
   double position_sigma_mm = 0;
   int pictures = 0;
+  std::vector<Vec2> dots_px;  ///< image: the mean of each LED's, in the order of the grid
 };
 
 /// The rig stands still at `room_from_rig`; the camera's lens is known. Throws Error where the rig
