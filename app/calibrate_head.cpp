@@ -193,8 +193,8 @@ void add_calibrate_head(CLI::App& calibrate, Action& chosen) {
   add_calibrate_options(*app, command->common);
   app->add_option("--head", command->name, "Its name (default: the wall file's first)");
   app->add_option("--leds", command->leds,
-                  "How many it has (default: 3, of emulated ones as the wall file says)")
-      ->check(CLI::Range(3, 4));
+                  "How many it has, 3 or 4 (default: 3, of emulated ones as the wall file says)")
+      ->check(CLI::Range(3, 16));
   app->add_option("--still-s", command->head.still_s,
                   "So long the wearer stands still at first, facing the wall (default: 2)")
       ->check(between(0.5, 60.0));

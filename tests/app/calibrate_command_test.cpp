@@ -189,6 +189,17 @@ TEST_F(CalibrateCommand, OfAHeadRefusesAnotherNumberOfLedsThanEmulatedCamerasSee
   EXPECT_THAT(result.err, HasSubstr("--leds: is 4, and emulated cameras see the 3 LEDs of head"));
 }
 
+TEST_F(CalibrateCommand, OfAHeadOfManyLedsIsRefusedWithWhatToDo) {
+  std::string wall = bytes_of(wall_);
+  const std::string three = "leds_m = [";
+  wall.replace(wall.find(three), three.size(),
+               "leds_m = [[0.05, 0.06, -0.03], [-0.05, 0.06, -0.02], ");
+  const ProcessResult result = vindu({"calibrate", "head", "--wall", write("five.toml", wall)});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("head: has 5 LEDs; three or four can be measured"),
+                                HasSubstr("leds_m")));
+}
+
 TEST_F(CalibrateCommand, OfAHeadRefusesAnEyeThatNoHeadHas) {
   const ProcessResult result =
       vindu({"calibrate", "head", "--wall", wall_, "--eye-at", "0,1.65,2"});  // in room
