@@ -92,10 +92,10 @@ TEST_F(CalibrateCommand, ByLiveCamerasThatFailsNamesItsRecordingAndHowToGoOn) {
   ASSERT_THAT(files_in("calibration"), ::testing::SizeIs(1));
   const std::string recording = path("calibration/" + files_in("calibration")[0]);
   EXPECT_THAT(result.err,
-              AllOf(HasSubstr("camera ghost: never saw the wand"), HasSubstr("--from " + recording)));
+              AllOf(HasSubstr("camera ghost: sent nothing"), HasSubstr("--from " + recording)));
   const ProcessResult again = vindu({"calibrate", "wand", "--wall", wall, "--from", recording});
   EXPECT_THAT(again.err,
-              AllOf(HasSubstr("camera ghost: never saw the wand"), ::testing::Not(HasSubstr("--from"))));
+              AllOf(HasSubstr("camera ghost: sent nothing"), ::testing::Not(HasSubstr("--from"))));
 }
 
 TEST_F(CalibrateCommand, ByLiveCamerasThatAreNotThereKeepsNoRecording) {

@@ -107,7 +107,7 @@ double bound_mm(const Site& site, const BodyMotion& motion, const std::vector<do
     poses.push_back(world.poses[i * all.size() / static_cast<std::size_t>(moments)]);
   }
   world.poses = poses;
-  return 1e3 * bound(chosen, world)[1].position_m.norm();
+  return 1e3 * sigmas_of(chosen, world, SigmaBy::noise)[1].position_m.norm();
 }
 
 TEST(Wand, OfFiveHundredPosesIsAsExactAsTheDotsAllow) {
@@ -240,17 +240,36 @@ TEST(Wand, SaidToBeATenthLongerIsDoubtedBecauseTheRoomWouldBeOfAnotherSize) {
               Contains(HasSubstr("stand 1.10 times as far apart as the wall file says")));
 }
 
-TEST(Wand, WavedWhileACameraMovedIsDoubted) {
-  const EmulatedCapture wanted{.site = true_site(kTwo), .body = wand(kThreeLeds)};
-  Capture capture = capture_of(wanted);
-  EXPECT_THAT(calibrate_wand(capture, wanted.site.cameras, {}).remarks,
-              Not(Contains(HasSubstr("scatters"))));
+/// The second camera is turned halfway through.
+Capture with_bump(Capture capture, double by_px) {
   const Time half = capture.observations[capture.observations.size() / 2].arrival;
   for (Observation& seen : capture.observations)
     for (Dot& dot : seen.dots)
-      if (seen.camera == 1 && seen.arrival > half) dot.x_px = std::min(dot.x_px + 40, 1023.0);
-  EXPECT_THAT(calibrate_wand(capture, wanted.site.cameras, {}).remarks,
-              Contains(HasSubstr("if a camera moved meanwhile")));
+      if (seen.camera == 1 && seen.arrival > half) dot.x_px = std::min(dot.x_px + by_px, 1023.0);
+  return capture;
+}
+
+TEST(Wand, WavedWhileACameraMovedMuchIsRefusedAndSaysSo) {
+  const EmulatedCapture wanted{.site = true_site(kTwo), .body = wand(kThreeLeds)};
+  EXPECT_THAT(refusal(with_bump(capture_of(wanted), 40), wanted.site),
+              HasSubstr("if a camera moved meanwhile"));
+}
+
+TEST(Wand, WavedWhileACameraMovedIsDoubtedAndKnowsHowFarOffItMayBe) {
+  const EmulatedCapture wanted{.site = true_site(kTwo), .body = wand(kThreeLeds), .noise_px = 0.3};
+  const Capture capture = capture_of(wanted);
+  const WandResult still = calibrate_wand(capture, wanted.site.cameras, {});
+  const WandResult moved = calibrate_wand(with_bump(capture, 10), wanted.site.cameras, {});
+  EXPECT_THAT(still.remarks, Not(Contains(HasSubstr("scatters"))));
+  EXPECT_THAT(moved.remarks, Contains(HasSubstr("if a camera moved meanwhile")));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Intrinsics& truth = wanted.site.cameras[i].intrinsics;
+    const WandCamera& found = moved.cameras[i];
+    EXPECT_LT(std::abs(found.intrinsics.fx_px - truth.fx_px), 3 * found.focal_sigma_px) << i;
+    EXPECT_LT(std::abs(found.intrinsics.cx_px - truth.cx_px), 3 * found.centre_sigma_px.x()) << i;
+    EXPECT_LT(std::abs(found.intrinsics.cy_px - truth.cy_px), 3 * found.centre_sigma_px.y()) << i;
+    EXPECT_GT(found.focal_sigma_px, 2 * still.cameras[i].focal_sigma_px) << i;
+  }
 }
 
 TEST(Wand, WavedInOneCornerIsRefused) {

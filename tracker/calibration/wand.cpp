@@ -45,6 +45,9 @@ Views find_views(const Capture& capture, const std::vector<CameraConfig>& camera
   const auto tracks = moving_dots(capture, cameras);
   Views views;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (tracks[i].pictures.empty())
+      throw Error({"sent nothing", "camera " + cameras[i].name,
+                   "switch it on (vindu wiimote list), or take it out of the wall file"});
     views.push_back(find_wand(tracks[i], static_cast<int>(i), leds_m));
     if (views[i].empty())
       throw Error({"never saw the wand, its LEDs and nothing else like it",
@@ -133,7 +136,7 @@ Rigid3 room_from_world(const Capture& capture, const std::vector<CameraConfig>& 
 
 void fill_cameras(const std::vector<WandMoment>& moments, const std::vector<CameraConfig>& cameras,
                   const WandWorld& world, WandResult& result) {
-  const auto sigmas = bound(moments, world);
+  const auto sigmas = sigmas_of(moments, world, SigmaBy::residuals);
   const auto coverage = coverage_of(moments, cameras);
   const auto used = scatter_of(moments, world, false), held_out = scatter_of(moments, world, true);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -175,6 +178,7 @@ void fill_lengths(const MeasuredWand& measured, double length_m, WandResult& res
 }
 
 void refuse_weak(const WandResult& result) {
+  const std::string doubt = scatter_doubt(result);
   for (const WandCamera& camera : result.cameras) {
     const double f_px = camera.intrinsics.fx_px;
     if (!(camera.focal_sigma_px < 0.012 * f_px) || !(camera.position_sigma_mm.norm() < 60))
@@ -182,7 +186,9 @@ void refuse_weak(const WandResult& result) {
                                "only",
                                camera.focal_sigma_px, camera.position_sigma_mm.norm()),
                    "camera " + camera.name,
-                   "wave the wand longer, near and far, tilted towards the cameras and across"});
+                   doubt.empty() ? "wave the wand longer, near and far, tilted towards the "
+                                   "cameras and across"
+                                 : doubt});
     if (camera.rms_px > 3)
       throw Error({fmt::format("the dots stray by {:.1f} px from any wand", camera.rms_px),
                    "camera " + camera.name,

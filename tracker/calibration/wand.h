@@ -37,7 +37,8 @@ struct WandCamera {
   Intrinsics intrinsics;
   Rigid3 room_from_camera;
   double lag_ms = 0;  ///< of the first camera: as it was
-  // One sigma each, from the Jacobian and what the residuals scatter; against the first camera.
+  // One sigma each, from the Jacobian, what the residuals scatter, and what parts of the capture
+  // contradict each other by; against the first camera.
   double focal_sigma_px = 0;
   double aspect_sigma = 0;
   Vec2 centre_sigma_px = Vec2::Zero();

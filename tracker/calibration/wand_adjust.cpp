@@ -153,14 +153,21 @@ Columns columns_of(const WandWorld& world, const std::vector<WandMoment>& moment
   return columns;
 }
 
-/// Covariance of the cameras' columns: the inverse of the Schur complement of the wand poses in the
-/// normal equations. Empty where that is singular.
-Eigen::MatrixXd camera_covariance(const ceres::CRSMatrix& jacobian, int cameras) {
+/// What the dots tell of the cameras' columns, the wand's poses eliminated (Schur complement).
+struct CameraEquations {
+  Eigen::MatrixXd normal;
+  std::vector<Eigen::VectorXd> pulls;  ///< of each pose's dots: J'r; about zero altogether
+};
+
+CameraEquations camera_equations(const ceres::CRSMatrix& jacobian,
+                                 const std::vector<double>& residuals, int cameras) {
   using Row5 = Eigen::Matrix<double, 5, 1>;
   const int poses = (jacobian.num_cols - cameras) / 5;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(cameras, cameras);
+  CameraEquations equations{Eigen::MatrixXd::Zero(cameras, cameras), {}};
   std::vector<Eigen::Matrix<double, 5, 5>> pose_normal(poses, Eigen::Matrix<double, 5, 5>::Zero());
+  std::vector<Row5> pose_pull(poses, Row5::Zero());
   std::vector<Eigen::MatrixXd> mixed(poses, Eigen::MatrixXd::Zero(cameras, 5));
+  equations.pulls.assign(poses, Eigen::VectorXd::Zero(cameras));
   for (int row = 0; row < jacobian.num_rows; ++row) {
     Eigen::VectorXd of_cameras = Eigen::VectorXd::Zero(cameras);
     Row5 of_pose = Row5::Zero();
@@ -174,19 +181,40 @@ Eigen::MatrixXd camera_covariance(const ceres::CRSMatrix& jacobian, int cameras)
         of_pose[(column - cameras) % 5] = jacobian.values[i];
       }
     }
-    normal += of_cameras * of_cameras.transpose();
+    equations.normal += of_cameras * of_cameras.transpose();
     if (pose < 0) continue;
     pose_normal[pose] += of_pose * of_pose.transpose();
+    pose_pull[pose] += residuals[row] * of_pose;
     mixed[pose] += of_cameras * of_pose.transpose();
+    equations.pulls[pose] += residuals[row] * of_cameras;
   }
   for (int i = 0; i < poses; ++i) {
     const Eigen::LDLT<Eigen::Matrix<double, 5, 5>> solver(pose_normal[i]);
-    normal -= mixed[i] * solver.solve(mixed[i].transpose());
+    equations.normal -= mixed[i] * solver.solve(mixed[i].transpose());
+    equations.pulls[i] -= mixed[i] * solver.solve(pose_pull[i]);
   }
+  return equations;
+}
+
+/// Empty where the normal equations are singular.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& normal) {
   const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
   if (solver.info() != Eigen::Success || !solver.isPositive() || solver.vectorD().minCoeff() < 1e-9)
     return {};
-  return solver.solve(Eigen::MatrixXd::Identity(cameras, cameras));
+  return solver.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+}
+
+/// The variance by how differently the stretches of a capture pull (the sandwich of Liang & Zeger
+/// 1986, Biometrika 73; its factor for few stretches).
+Eigen::VectorXd variance_of_stretches(const std::vector<Eigen::VectorXd>& pulls,
+                                      const Eigen::MatrixXd& covariance) {
+  constexpr std::size_t kStretches = 4;
+  Eigen::MatrixXd by_stretch = Eigen::MatrixXd::Zero(covariance.rows(), kStretches);
+  for (std::size_t i = 0; i < pulls.size(); ++i)
+    by_stretch.col(static_cast<Eigen::Index>(i * kStretches / pulls.size())) += pulls[i];
+  by_stretch.colwise() -= by_stretch.rowwise().mean().eval();
+  const Eigen::MatrixXd moved = covariance * by_stretch;
+  return moved.rowwise().squaredNorm() * (1.0 * kStretches / (kStretches - 1));
 }
 
 CameraSigma sigma_from(const Eigen::VectorXd& variance, const LensPrior& prior, int begin,
@@ -253,7 +281,8 @@ void adjust(const std::vector<WandMoment>& moments, Free free, WandWorld& world,
   if (summary.IsSolutionUsable()) blocks.copy_to(world);
 }
 
-std::vector<CameraSigma> bound(const std::vector<WandMoment>& moments, const WandWorld& world) {
+std::vector<CameraSigma> sigmas_of(const std::vector<WandMoment>& moments, const WandWorld& world,
+                                   SigmaBy by) {
   Blocks blocks(world);
   ceres::Problem problem;
   for (std::size_t i = 0; i < blocks.cameras.size(); ++i)
@@ -265,14 +294,18 @@ std::vector<CameraSigma> bound(const std::vector<WandMoment>& moments, const Wan
   ceres::Problem::EvaluateOptions which;
   which.parameter_blocks = columns.blocks;
   ceres::CRSMatrix jacobian;
-  std::vector<CameraSigma> sigmas(world.cameras.size());
-  const bool evaluated = problem.Evaluate(which, nullptr, nullptr, nullptr, &jacobian);
-  const auto covariance =
-      evaluated ? camera_covariance(jacobian, columns.cameras) : Eigen::MatrixXd();
+  std::vector<double> residuals;
   const double infinity = std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd variance = covariance.size() > 0
-                                       ? Eigen::VectorXd(covariance.diagonal())
-                                       : Eigen::VectorXd::Constant(columns.cameras, infinity);
+  Eigen::VectorXd variance = Eigen::VectorXd::Constant(columns.cameras, infinity);
+  if (problem.Evaluate(which, nullptr, &residuals, nullptr, &jacobian)) {
+    const auto equations = camera_equations(jacobian, residuals, columns.cameras);
+    if (const auto covariance = inverse_of(equations.normal); covariance.size() > 0) {
+      variance = covariance.diagonal();
+      if (by == SigmaBy::residuals)
+        variance = variance.cwiseMax(variance_of_stretches(equations.pulls, covariance));
+    }
+  }
+  std::vector<CameraSigma> sigmas(world.cameras.size());
   for (std::size_t i = 0; i < sigmas.size(); ++i)
     sigmas[i] = sigma_from(variance, world.cameras[i].prior, columns.camera_begin[i], i == 0);
   return sigmas;

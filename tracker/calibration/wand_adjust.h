@@ -57,8 +57,14 @@ struct CameraSigma {
   double lag_ms = 0;
 };
 
-/// The Cramér-Rao bound at this world, where the moments' dots have the cameras' sigmas; the priors
-/// count as measurements. Infinite where the dots do not fix something.
-std::vector<CameraSigma> bound(const std::vector<WandMoment>& moments, const WandWorld& world);
+enum class SigmaBy {
+  noise,  ///< the Cramér-Rao bound: the dots scatter by the cameras' sigmas and nothing is wrong
+  residuals,  ///< the same, or what quarters of the capture contradict each other by, where that is
+              ///< more: a camera was moved meanwhile, a wand bends
+};
+
+/// At this world; the priors count as measurements. Infinite where the dots do not fix something.
+std::vector<CameraSigma> sigmas_of(const std::vector<WandMoment>& moments, const WandWorld& world,
+                                   SigmaBy by);
 
 }  // namespace vindu

@@ -203,20 +203,25 @@ void refuse_other_size(double ratio) {
        "those are guesses"});
 }
 
+std::string scatter_doubt(const WandResult& result) {
+  constexpr double kUsualScatter = 1.4;
+  const double scatter = result.length_rms_mm / result.predicted_length_rms_mm;
+  if (!(scatter > kUsualScatter)) return "";
+  return fmt::format(
+      "the wand's length scatters by {:.1f} times what its dots' noise makes; if a camera moved "
+      "meanwhile, or the wand bends, wave again",
+      scatter);
+}
+
 std::vector<std::string> doubts_of(const WandResult& result, double size_ratio) {
-  constexpr double kUsualSize = 0.05, kUsualScatter = 1.4;
+  constexpr double kUsualSize = 0.05;
   std::vector<std::string> doubts;
   if (std::abs(size_ratio - 1) > kUsualSize)
-    doubts.push_back(fmt::format(
-        "the cameras stand {:.2f} times as far apart as the wall file says; if "
-        "its position_m are good, measure the wand again",
-        size_ratio));
-  if (const double scatter = result.length_rms_mm / result.predicted_length_rms_mm;
-      scatter > kUsualScatter)
     doubts.push_back(
-        fmt::format("the wand's length scatters by {:.1f} times what its dots' noise "
-                    "makes; if a camera moved meanwhile, or the wand bends, wave again",
-                    scatter));
+        fmt::format("the cameras stand {:.2f} times as far apart as the wall file says; if "
+                    "its position_m are good, measure the wand again",
+                    size_ratio));
+  if (const std::string doubt = scatter_doubt(result); !doubt.empty()) doubts.push_back(doubt);
   return doubts;
 }
 

@@ -36,6 +36,8 @@ void refuse_other_wand(const MeasuredWand& measured, const std::vector<double>& 
 double size_ratio(const WandWorld& world, const std::vector<CameraConfig>& cameras);
 /// Throws Error for cameras that stand much nearer or farther apart than the wall file says.
 void refuse_other_size(double size_ratio);
+/// "" for a wand that is as long in one place as in another.
+std::string scatter_doubt(const WandResult& result);
 /// What may be wrong with a result that is not refused, for people.
 std::vector<std::string> doubts_of(const WandResult& result, double size_ratio);
 
