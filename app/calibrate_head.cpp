@@ -118,26 +118,27 @@ void expect_eye_at_the_helmet(const Vec3& eye_in_head) {
                  "right and y up from the wall's middle, z away from it"});
 }
 
-/// Emulated cameras are shown the wall file's helmet: another one cannot be found there.
-void expect_the_emulated_helmet(const HeadCommand& command, const Site& site,
-                                const HeadConfig& known) {
-  if (!command.leds || !command.common.from.empty() || !all_emulated(site)) return;
-  const std::size_t leds = known.leds_in_head.size();
-  if (leds != static_cast<std::size_t>(*command.leds))
-    throw Error({fmt::format("is {}, and emulated cameras see the {} LEDs of {}", *command.leds,
-                             leds, known.name),
+/// How many are to be measured. Emulated cameras are shown the wall file's helmet: another one
+/// cannot be found there. Throws Error for that, and before anybody looks for what cannot be
+/// measured.
+int leds_of(const HeadCommand& command, const Site& site, const HeadConfig& known) {
+  const bool emulated = command.common.from.empty() && all_emulated(site);
+  const int of_known = static_cast<int>(known.leds_in_head.size());
+  const int leds = command.leds.value_or(emulated ? of_known : HeadOptions{}.leds);
+  if (emulated && leds != of_known)
+    throw Error({fmt::format("is {}, and emulated cameras see the {} LEDs of {}", leds, of_known,
+                             known.name),
                  "--leds", "leave it out, or give its leds_m in the wall file as many points"});
+  expect_measurable(leds, known);
+  return leds;
 }
 
 /// With what emulated cameras know of it, where those look.
-HeadOptions head_options(const HeadCommand& command, const Calibrating& run,
+HeadOptions head_options(const HeadCommand& command, int leds, const Calibrating& run,
                          const EmulatedWearer& wearer) {
   HeadOptions options = command.head;
-  options.leds = command.leds.value_or(options.leds);
-  if (run.truth) {
-    options.leds = static_cast<int>(wearer.head.leds_in_head.size());
-    options.eye_in_room = wearer.place_in_room + wearer.head.eye_in_head;
-  }
+  options.leds = leds;
+  if (run.truth) options.eye_in_room = wearer.place_in_room + wearer.head.eye_in_head;
   if (command.eye_in_wall)
     options.eye_in_room = run.site.wall.room_from_wall * *command.eye_in_wall;
   return options;
@@ -160,7 +161,7 @@ std::vector<CoveragePanel> panels_of(const Calibrating& run) {
 int calibrate_the_head(const HeadCommand& command) {
   const Site site = load_site(command.common.wall_file);
   const HeadConfig& known = head_named(command.name, site);
-  expect_the_emulated_helmet(command, site, known);
+  const int leds = leds_of(command, site, known);
   const EmulatedWearer wearer(site, known, command.common.seed);
   const CaptureWish wish{
       .name = "head",
@@ -173,7 +174,7 @@ int calibrate_the_head(const HeadCommand& command) {
   return calibrate(command.common, site, wish, [&](const Calibrating& run) {
     const HeadResult result =
         calibrate_head(run.capture, run.site.cameras, run.site.wall.room_from_wall, known,
-                       head_options(command, run, wearer));
+                       head_options(command, leds, run, wearer));
     expect_eye_at_the_helmet(result.head.eye_in_head);
     tell(result, run.truth ? &wearer.head : nullptr, command.common.json);
     draw(command.common, panels_of(run));
@@ -194,7 +195,7 @@ void add_calibrate_head(CLI::App& calibrate, Action& chosen) {
   app->add_option("--head", command->name, "Its name (default: the wall file's first)");
   app->add_option("--leds", command->leds,
                   "How many it has, 3 or 4 (default: 3, of emulated ones as the wall file says)")
-      ->check(CLI::Range(3, 16));
+      ->check(CLI::Range(3, 16).description(""));
   app->add_option("--still-s", command->head.still_s,
                   "So long the wearer stands still at first, facing the wall (default: 2)")
       ->check(between(0.5, 60.0));

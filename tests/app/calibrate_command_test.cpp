@@ -200,6 +200,13 @@ TEST_F(CalibrateCommand, OfAHeadOfManyLedsIsRefusedWithWhatToDo) {
                                 HasSubstr("leds_m")));
 }
 
+TEST_F(CalibrateCommand, OfAHeadRefusesTooManyLedsBeforeAnybodyLooks) {
+  const ProcessResult result = vindu(
+      {"calibrate", "head", "--wall", wall_, "--leds", "6", "--from", path("not-there.vrec")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("head: has 6 LEDs; three or four can be measured"));
+}
+
 TEST_F(CalibrateCommand, OfAHeadRefusesAnEyeThatNoHeadHas) {
   const ProcessResult result =
       vindu({"calibrate", "head", "--wall", wall_, "--eye-at", "0,1.65,2"});  // in room

@@ -269,14 +269,17 @@ std::vector<Moment> thinned(std::vector<Moment> moments, double still_s, int mos
 
 }  // namespace
 
+void expect_measurable(int leds, const HeadConfig& head) {
+  if (leds >= 3 && leds <= 4) return;
+  throw Error({fmt::format("has {} LEDs; three or four can be measured", leds), "head " + head.name,
+               "cover the others, which it then does without, or measure all by hand and give "
+               "them in the wall file: leds_m, eye_m"});
+}
+
 HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig>& cameras,
                           const Rigid3& room_from_wall, const HeadConfig& head,
                           const HeadOptions& options) {
-  if (options.leds < 3 || options.leds > 4)
-    throw Error({fmt::format("has {} LEDs; three or four can be measured", options.leds),
-                 "head " + head.name,
-                 "cover the others, which it then does without, or measure all by hand and give "
-                 "them in the wall file: leds_m, eye_m"});
+  expect_measurable(options.leds, head);
   if (cameras.size() < 2)
     throw Error({"has fewer than two cameras", "wall file", "a helmet's LEDs are measured by two"});
   const auto leds = static_cast<std::size_t>(options.leds);

@@ -24,6 +24,9 @@ struct HeadResult {
   int moments = 0;
 };
 
+/// Throws Error for more or fewer LEDs than can be measured: all orders of the dots are tried.
+void expect_measurable(int leds, const HeadConfig& head);
+
 /// `head` is what is known: its eye, where that is not measured. Throws Error for LEDs that are not
 /// seen, for a wearer who moves while he should stand, and for dots that are no rigid body.
 HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig>& cameras,
