@@ -14,32 +14,34 @@ namespace vindu::app {
 namespace {
 
 /// Of the LEDs that are needed, by [tracking] of the wall file and by how many cameras there are:
-/// one knows no distance of its own, three LEDs do.
+/// one knows no distance of its own; three LEDs do in several ways, four in one.
 std::size_t least_leds(const Site& site) {
-  if (site.tracking.mode == "six-dof" || site.cameras.size() == 1) return 3;
-  return site.tracking.mode == "position" ? 1 : 2;
+  const std::string& mode = site.tracking.mode;
+  if (site.cameras.size() == 1) return mode == "six-dof" || mode == "hybrid" ? 4 : 3;
+  return mode == "six-dof" ? 3 : mode == "position" ? 1 : 2;
 }
 
-/// Why this head cannot be tracked; "" where it can.
+/// Why this head cannot be tracked, or how little is known of it; "" where all is well.
 std::string leds_remark(const Site& site, const HeadConfig& head) {
   const bool alone = site.cameras.size() == 1;
   const std::size_t least = least_leds(site), leds = head.leds_in_head.size();
-  if (leds >= least) return "";
-  const char* remedy = !alone                            ? "Write mode = \"position\", or add LEDs"
-                       : site.tracking.mode == "six-dof" ? "Add LEDs"
-                                                         : "Add a camera, or LEDs";
+  if (leds < least)
+    return fmt::format(
+        "mode = \"{}\" of [tracking] needs {} LEDs or more{}, and leds_m of {} has {}: nothing "
+        "will "
+        "be found. {}.",
+        site.tracking.mode, least, alone ? " with one camera" : "", head.name, leds,
+        alone ? "Add a camera, or LEDs" : "Write mode = \"position\", or add LEDs");
+  if (!alone || leds > 3) return "";
   return fmt::format(
-      "mode = \"{}\" of [tracking] needs {} LEDs or more{}, and leds_m of {} has {}: nothing will "
-      "be found. {}.",
-      site.tracking.mode, least, alone ? " with one camera" : "", head.name, leds, remedy);
+      "one camera sees the 3 LEDs of {} in several poses: the one that faces the wall is taken, "
+      "and its distance is not vouched for. Add an LED, or a camera.",
+      head.name);
 }
 
 /// Why nothing can be tracked; "" where it can.
 std::string start_remark(const Site& site) {
   if (site.cameras.empty()) return "";
-  if (site.tracking.mode == "position" && site.cameras.size() == 1)
-    return "mode = \"position\" of [tracking] needs two cameras, and there is one: nothing will be "
-           "found. Write mode = \"auto\", or add a camera.";
   try {
     const Tracker starts(site.cameras, site.heads, site.wall.room_from_wall, site.tracking);
   } catch (const Error& error) {

@@ -1,6 +1,6 @@
-// What tiles show of a frame that shows no model: a test pattern, points to be
-// touched, or nothing. Drawn into parts of a
-// picture, upright as the viewer sees it; how the display hangs is the surface's affair.
+// What tiles show of a frame that shows no model: a test pattern, points to be touched, or nothing.
+// Drawn into parts of a picture, upright as the viewer sees it; how the display hangs is the
+// surface's affair.
 #pragma once
 
 #include <optional>

@@ -112,8 +112,9 @@ TEST_F(CheckCommand, WarnsOfTwoHelmetsThatCannotBeTold) {
 }
 
 /// The wall that comes with Vindu, with other LEDs and that [tracking].
-std::string wall_with(const std::string& leds, const std::string& tracking = "") {
+std::string wall_with(const std::string& leds, const std::string& tracking = "", int cameras = 2) {
   std::string text = bytes_of(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
+  if (cameras == 1) text.erase(text.rfind("[[camera]]"));
   const std::size_t begin = text.find("leds_m = ");
   text.replace(begin, text.find('\n', begin) - begin, "leds_m = " + leds);
   return text + "[tracking]\n" + tracking;
@@ -151,6 +152,21 @@ TEST_F(CheckCommand, WarnsOfAHelmetThatTheTrackingCannotUse) {
   EXPECT_THAT(said_of(two, "method = \"thesis\"\n"),
               HasSubstr("the thesis' method needs three LEDs, not 2"));
   EXPECT_THAT(said_of(one, "mode = \"position\"\n"), Not(HasSubstr("warning")));
+}
+
+TEST_F(CheckCommand, SaysWhatOneCameraCannotKnow) {
+  const auto said_of = [&](const std::string& leds, const std::string& tracking) {
+    return vindu({"check", write("wall.toml", wall_with(leds, tracking, 1))}).out;
+  };
+  const std::string three = "[[-0.09, 0.03, -0.09], [0, 0, 0], [0.09, -0.02, -0.09]]";
+  const std::string four = three.substr(0, three.size() - 1) + ", [0.02, 0.10, -0.03]]";
+  EXPECT_THAT(said_of(three, ""), HasSubstr("the one that faces the wall is taken"));
+  EXPECT_THAT(said_of(three, "mode = \"six-dof\"\n"),
+              HasSubstr("needs 4 LEDs or more with one camera, and leds_m of head has 3"));
+  EXPECT_THAT(said_of("[[-0.09, 0, 0], [0.09, 0, 0]]", "mode = \"position\"\n"),
+              HasSubstr("needs 3 LEDs or more with one camera"));
+  EXPECT_THAT(said_of(four, ""), Not(HasSubstr("faces the wall is taken")));
+  EXPECT_THAT(said_of(four, "mode = \"six-dof\"\n"), Not(HasSubstr("warning: mode")));
 }
 
 TEST_F(CheckCommand, FailsWhereTheDrawingCannotBeWritten) {
