@@ -9,9 +9,10 @@
 namespace vindu {
 namespace {
 
-constexpr double kStays = 1 - 1.0 / 40;  // of what is known, with each note: two seconds
-constexpr double kEnough = 5;            // notes that tell something
-constexpr double kSizeSigma = 0.005;     // of a head, as LEDs and lenses are known
+constexpr double kStays = 1 - 1.0 / 40;    // of what is known, with each note: two seconds
+constexpr double kEnough = 5;              // notes that tell something
+constexpr double kSizeSigma = 0.005;       // of a head, as LEDs and lenses are known
+constexpr double kPoseInformation = 1e-2;  // metres and radians: whatever it is
 constexpr double kShiftSigma_px = 100;
 constexpr double kDotSigma_px = 1;  // with what rounding leaves wrong in one picture after another
 
@@ -110,7 +111,7 @@ QuorumEvidence evidence_of(std::span<const CameraModel> cameras,
                            Eigen::Index rows) {
   const Eigen::Index size = rows - 1;
   double square = 0;
-  Mat6 of_pose = 1e-2 * Mat6::Identity();  // metres and radians: whatever it is
+  Mat6 of_pose = kPoseInformation * Mat6::Identity();
   Eigen::Matrix<double, 6, 1> pose_pull = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size + 1, size + 1);
   Eigen::MatrixXd with_pose = Eigen::MatrixXd::Zero(size + 1, 6);
@@ -139,7 +140,8 @@ QuorumEvidence evidence_of(std::span<const CameraModel> cameras,
   }
   const Eigen::LDLT<Mat6> pose(of_pose);
   return {own - with_pose * pose.solve(with_pose.transpose()),
-          pull - with_pose * pose.solve(pose_pull), square - pose_pull.dot(pose.solve(pose_pull))};
+          pull - with_pose * pose.solve(pose_pull), square - pose_pull.dot(pose.solve(pose_pull)),
+          2 * static_cast<double>(sightings.size()) - 6};
 }
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t camera) {
@@ -151,7 +153,7 @@ std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t camera) 
 
 Quorum::Quorum(std::size_t cameras) : standings_(cameras) {
   const Eigen::Index rows = 2 * std::ssize(standings_) + 1;
-  known_ = {Eigen::MatrixXd::Zero(rows, rows), Eigen::VectorXd::Zero(rows), 0};
+  known_ = {Eigen::MatrixXd::Zero(rows, rows), Eigen::VectorXd::Zero(rows), 0, 0};
   leading_ = Eigen::VectorXd::Zero(rows);
 }
 
@@ -170,7 +172,8 @@ void Quorum::note(std::span<const CameraModel> cameras, std::span<const Vec3> le
   for (Standing& standing : standings_) standing.seen *= kStays;
   for (const std::size_t camera : seeing) ++standings_[camera].seen;
   if (seeing.size() < 3) return;
-  const auto fit = fit_pose(cameras, sightings, glimpses[0].room_from_head, {},
+  const PosePrior anywhere{glimpses[0].room_from_head, kPoseInformation * Mat6::Identity()};
+  const auto fit = fit_pose(cameras, sightings, anywhere.room_from_head, anywhere,
                             {.huber_sigmas = std::numeric_limits<double>::infinity()});
   if (!fit) return;
   const QuorumEvidence news =
@@ -186,11 +189,11 @@ void Quorum::note(std::span<const CameraModel> cameras, std::span<const Vec3> le
 // Dots that fit what is known no more: a camera was bumped just now. What was seen before and after
 // is explained by nothing that stays.
 bool Quorum::torn_by(const QuorumEvidence& news) {
-  constexpr double kShare = 0.3, kTorn = 20;
+  constexpr double kShare = 0.3, kTorn = 15, kUsual = 0.5;  // squared sigmas, of each dot's number
   if (weighed().size() < 3) return false;
   const double misfit =
       news.square - 2 * leading_.dot(news.pull) + leading_.dot(news.information * leading_);
-  misfit_ += kShare * (misfit - misfit_);
+  misfit_ += kShare * (misfit - kUsual * news.freedom - misfit_);
   return misfit_ > kTorn;
 }
 

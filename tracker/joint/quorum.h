@@ -30,7 +30,8 @@ std::vector<int> labels_aside(std::span<const Vec2> expected_px, std::span<const
 struct QuorumEvidence {
   Eigen::MatrixXd information;
   Eigen::VectorXd pull;
-  double square = 0;  ///< of all residuals, in sigmas
+  double square = 0;   ///< of all residuals, in sigmas
+  double freedom = 0;  ///< numbers that the pose leaves free
 };
 
 /// Bound to one thread.

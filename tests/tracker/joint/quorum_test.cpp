@@ -24,9 +24,10 @@ Rigid3 walking_head(double t) {
 /// Twenty times a second, from one time to another; the head believed to be where it is but for
 /// `off_m` along z.
 void watch(Quorum& quorum, const std::vector<CameraModel>& cameras, const Shifts& shifts_px,
-           double from_s, double to_s, double size = 1, double off_m = 0) {
+           double from_s, double to_s, double size = 1, double off_m = 0,
+           const std::vector<Vec3>& leds_in_head = kThreeLeds) {
   Random random(7);
-  std::vector<Vec3> leds = kThreeLeds;
+  std::vector<Vec3> leds = leds_in_head;
   for (Vec3& led : leds) led *= size;
   for (double t = from_s; t < to_s; t += 0.05) {
     Rigid3 believed = walking_head(t);
@@ -36,7 +37,7 @@ void watch(Quorum& quorum, const std::vector<CameraModel>& cameras, const Shifts
       for (Vec2& dot_px : view.dots_px) dot_px += shifts_px[static_cast<std::size_t>(view.camera)];
       glimpses.push_back({view.camera, believed, view.dots_px, view.sigma_px});
     }
-    quorum.note(cameras, kThreeLeds, glimpses);
+    quorum.note(cameras, leds_in_head, glimpses);
   }
 }
 
@@ -72,6 +73,23 @@ TEST(Quorum, names_two_of_four) {
   const Shifts shifts_px = {{0, 12}, {0, 0}, {0, 0}, {20, -6}};
   Quorum quorum(4);
   watch(quorum, cameras_behind(4), shifts_px, 0, 6);
+  expect_aside(quorum, shifts_px);
+}
+
+TEST(Quorum, names_one_of_sixteen_by_four_leds) {
+  Shifts shifts_px(16, Vec2::Zero());
+  shifts_px[5] = {17, 0};
+  Quorum quorum(16);
+  watch(quorum, cameras_behind(16), Shifts(16, Vec2::Zero()), 0, 2, 1, 0, kFourLeds);
+  watch(quorum, cameras_behind(16), shifts_px, 2, 6, 1, 0, kFourLeds);
+  expect_aside(quorum, shifts_px);
+}
+
+/// How they turn about their line shows nowhere.
+TEST(Quorum, does_with_two_leds) {
+  const Shifts shifts_px = {{0, 0}, {0, 12}, {0, 0}};
+  Quorum quorum(3);
+  watch(quorum, cameras_behind(3), shifts_px, 0, 4, 1, 0, {{-0.09, 0, 0}, {0.09, 0, 0}});
   expect_aside(quorum, shifts_px);
 }
 
