@@ -32,7 +32,7 @@ std::string leds_remark(const Site& site, const HeadConfig& head) {
         "be found. {}.",
         site.tracking.mode, least, alone ? " with one camera" : "", head.name, leds,
         alone ? "Add a camera, or LEDs" : "Write mode = \"position\", or add LEDs");
-  if (!alone || leds > 3) return "";
+  if (!alone || leds > 3 || site.tracking.mode == "position") return "";
   return fmt::format(
       "one camera sees the 3 LEDs of {} in several poses: the one that faces the wall is taken, "
       "and its distance is not vouched for. Add an LED, or a camera.",

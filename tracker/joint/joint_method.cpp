@@ -24,6 +24,7 @@ constexpr Duration kCheck = std::chrono::seconds(2);  // and of one that explain
 constexpr Duration kCheckMany = std::chrono::seconds(10);  // so many that they agree on no other
 constexpr Duration kHeld = Milliseconds(250);
 constexpr Duration kLost = std::chrono::seconds(2);
+constexpr Duration kPuzzled = std::chrono::seconds(3);  // before cameras that were named are asked
 constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
 
 std::ptrdiff_t dots_of(const FoundHead& found) {
@@ -142,8 +143,9 @@ void JointMethod::replay() {
     AssociationOptions options = association_;
     options.may_widen = eyes_[camera].watch.may_widen() && !stands_aside(camera);
     options.farthest_px += 2 * disagreement_.sigma_px();
-    entry.association =
-        associate(entry.seen, cameras_[camera], leds_of_heads_, entry.after, options);
+    TimedDots seen = entry.seen;
+    if (stands_aside(camera)) seen.dots = {};
+    entry.association = associate(seen, cameras_[camera], leds_of_heads_, entry.after, options);
     for (const auto& [head, state] : entry.births) {
       entry.after[head].state = state;
       HeadTrack& born = entry.after[head];
@@ -194,7 +196,7 @@ void JointMethod::judge(Entry& entry) {
     const Vec2 raw_px = raw_px_of(entry.seen.dots[i]);
     if (explained[i])
       eye.statics.release(raw_px, entry.seen.captured);
-    else if (!entry.association.disputed[i])
+    else if (!entry.association.disputed[i] && !stands_aside(camera))
       eye.statics.watch(raw_px, entry.seen.captured);
   }
   eye.watch.count(entry.association);
@@ -304,6 +306,7 @@ Duration JointMethod::pause_of_looks(std::size_t head) const {
   for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
     if (done[static_cast<std::size_t>(entry->seen.camera)]) continue;
     done[static_cast<std::size_t>(entry->seen.camera)] = true;
+    if (stands_aside(static_cast<std::size_t>(entry->seen.camera))) continue;
     const auto& accepted = entry->association.accepted;
     const auto unmasked = static_cast<std::ptrdiff_t>(entry->seen.dots.size()) -
                           std::ranges::count(entry->seen.masked, true);
@@ -464,6 +467,8 @@ void JointMethod::update(Time now) {
     replay();  // the next head is not found of the dots that this one was found of
   }
   weigh_tracked(now);
+  if (!puzzled()) puzzled_since_ = now;
+  if (now - puzzled_since_ > kPuzzled) quorum_.forgive();
   for (std::size_t head = 0; head < searches_.size(); ++head) {
     const HeadTrack& track = newest_heads()[head];
     if (!track.state) continue;

@@ -128,6 +128,7 @@ class JointMethod {
   bool stands_aside(std::size_t camera) const;
   void weigh_tracked(Time now);
   void weigh(const Look& look, std::size_t head);
+  bool puzzled() const;
   bool known_by_facing(std::size_t head) const;
   AcquisitionOptions acquisition_options(std::size_t head, const std::optional<Rigid3>& believed,
                                          double slack_px) const;
@@ -153,6 +154,7 @@ class JointMethod {
   Disagreement disagreement_;  // of two cameras
   Quorum quorum_;              // of more
   Time weighed_{};             // when it was asked last
+  Time puzzled_since_{};
   std::deque<Entry> entries_;  // in order of capture
   std::size_t replay_from_ = 0;
   Time now_{};                   // of the last update

@@ -150,10 +150,22 @@ bool JointMethod::moved(std::size_t camera) const {
   return eyes_[camera].watch.moved() || quorum_.aside_px(camera).norm() > kMoved_px;
 }
 
-/// Too far for its dots to be of use where those of two others are.
+/// Too far for its dots to be of use.
 bool JointMethod::stands_aside(std::size_t camera) const {
   constexpr double kTooFar_px = 2;
   return quorum_.aside_px(camera).norm() > kTooFar_px;
+}
+
+/// Whether nobody is tracked though two cameras see dots: those that were named may be right again,
+/// and others wrong.
+bool JointMethod::puzzled() const {
+  if (entries_.empty() || std::ranges::any_of(newest_heads(), [](const HeadTrack& track) {
+        return track.state.has_value();
+      }))
+    return false;
+  return std::ranges::count_if(together(common_time()), [&](std::size_t entry) {
+           return entries_[entry].seen.dots.size() >= 2;
+         }) >= 2;
 }
 
 // By the dots of the cameras' newest pictures, each where the head was by then.
@@ -183,8 +195,12 @@ void JointMethod::weigh(const Look& look, std::size_t head) {
   const auto leading = look.search.leading();
   if (cameras_.size() < 3 || options_.position_only || !leading) return;
   std::vector<Glimpse> glimpses;
-  for (const CameraView& view : look.search.views())
+  const Time common = common_time();
+  for (const std::size_t i : together(common)) {
+    const CameraView view =
+        view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common), 0);
     glimpses.push_back({view.camera, *leading, view.dots_px, view.sigma_px});
+  }
   quorum_.note(cameras_, leds_of_heads_[head], glimpses);
 }
 

@@ -23,17 +23,22 @@ struct Shifted {
   double spread_px2 = 0;  // of their shifts, summed
 };
 
-/// To each LED the nearest dot, where one is near.
+/// To each LED the nearest dot, where one is near; of two LEDs with one dot the nearer.
 std::vector<int> nearest_dots(const Vec2& shift_px, std::span<const Vec2> expected_px,
                               std::span<const Vec2> dots_px) {
   constexpr double kShape_px = 6;
   std::vector<int> led_of_dot(dots_px.size(), -1);
+  const auto off_px = [&](std::size_t dot, std::size_t led) {
+    return (dots_px[dot] - expected_px[led] - shift_px).norm();
+  };
   for (std::size_t led = 0; led < expected_px.size(); ++led) {
-    const Vec2 at_px = expected_px[led] + shift_px;
-    const auto off_px = [&](const Vec2& dot_px) { return (dot_px - at_px).norm(); };
-    const auto nearest = std::ranges::min_element(dots_px, {}, off_px);
-    if (off_px(*nearest) < kShape_px)
-      led_of_dot[static_cast<std::size_t>(nearest - dots_px.begin())] = static_cast<int>(led);
+    std::size_t nearest = 0;
+    for (std::size_t dot = 1; dot < dots_px.size(); ++dot)
+      if (off_px(dot, led) < off_px(nearest, led)) nearest = dot;
+    int& taken = led_of_dot[nearest];
+    const double limit_px =
+        taken < 0 ? kShape_px : off_px(nearest, static_cast<std::size_t>(taken));
+    if (off_px(nearest, led) < limit_px) taken = static_cast<int>(led);
   }
   return led_of_dot;
 }
@@ -197,6 +202,12 @@ bool Quorum::torn_by(const QuorumEvidence& news) {
   return misfit_ > kTorn;
 }
 
+void Quorum::forgive() {
+  forget();
+  for (std::size_t camera = 0; camera < standings_.size(); ++camera) stand(camera, Vec2::Zero(), 0);
+  undecided_px_ = 0;
+}
+
 void Quorum::forget() {
   known_.information.setZero();
   known_.pull.setZero();
@@ -252,9 +263,9 @@ Quorum::Set Quorum::suspects(const Set& agreeing, const Set& aside) const {
   if (most - explained_by(aside) < kClear) return {};
   Set suspects;
   for (std::size_t i = 0; i < agreeing.size(); ++i)
-    if (explained[i] > most - kClearBy && shift_px(aside, agreeing[i]) > kUsual_px)
-      suspects.push_back(agreeing[i]);
-  return suspects;
+    if (explained[i] > most - kClearBy) suspects.push_back(agreeing[i]);
+  const auto usual = [&](std::size_t camera) { return shift_px(aside, camera) < kUsual_px; };
+  return std::ranges::any_of(suspects, usual) ? Set{} : suspects;
 }
 
 // One after the other, while two agree.

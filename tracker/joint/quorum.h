@@ -42,6 +42,8 @@ class Quorum {
   /// Takes in dots of one head that cameras saw at about one time; some twenty times a second.
   void note(std::span<const CameraModel> cameras, std::span<const Vec3> leds_in_head,
             std::span<const Glimpse> glimpses);
+  /// Takes back what was said of all.
+  void forgive();
 
   /// Where all dots of a camera stand, from where those of the others tell: raw pixels, the mean
   /// over two seconds; zero of cameras that agree, and where nobody can say which one is off.

@@ -358,6 +358,30 @@ TEST_F(JointMethodTest, goes_on_with_the_two_that_agree_when_a_third_is_bumped_t
     }
 }
 
+TEST_F(JointMethodTest, takes_in_again_a_camera_that_stood_aside_when_another_is_gone) {
+  add_middle_camera();
+  const std::vector<CameraConfig> calibrated = configs_;
+  JointMethod method(calibrated, heads_);
+  const auto walks = [](double t) { return std::vector{walking(t)}; };
+  const auto nobody = [](double) { return std::vector<Rigid3>{}; };
+  bump(0, 10, 2);
+  feed(method, 0, 5, walks);
+  EXPECT_NEAR(method.health()[2].aside_px, 10, 1);
+  configs_ = calibrated;  // the middle one is put right; the right one is gone
+  const auto feed_two = [&](double from_s, double to_s, const auto& heads_at) {
+    for (int k = static_cast<int>(100 * from_s); k < static_cast<int>(100 * to_s); ++k) {
+      const Time time{milliseconds(10 * k)};
+      for (const int camera : {0, 2}) method.absorb(seen_by(camera, heads_at(0.01 * k), time));
+      method.update(time);
+    }
+  };
+  feed_two(5, 6, nobody);
+  feed_two(6, 14, walks);
+  EXPECT_EQ(method.health()[2].aside_px, 0);
+  EXPECT_LT(method.pose(0, Time{milliseconds(13990)})->level, TrackingLevel::bearing);
+  EXPECT_LT(error_m(method, 0, Time{milliseconds(13990)}, walking(13.99)), 0.01);
+}
+
 /// Of which three LEDs fit several poses, one of them facing the wall.
 TEST_F(JointMethodTest,
        follows_by_one_camera_whoever_watches_the_wall_and_vouches_for_no_distance) {

@@ -66,6 +66,15 @@ TEST(Quorum, names_the_one_of_three_cameras_that_stands_aside) {
 TEST(Quorum, names_nobody_where_all_agree) {
   Quorum quorum(3);
   watch(quorum, cameras_behind(3), Shifts(3, Vec2::Zero()), 0, 4);
+  EXPECT_TRUE(quorum.knows(0) && quorum.knows(1) && quorum.knows(2));
+  expect_aside(quorum, Shifts(3, Vec2::Zero()));
+}
+
+TEST(Quorum, takes_back_what_it_said_when_asked) {
+  Quorum quorum(3);
+  watch(quorum, cameras_behind(3), {{0, 17}, {0, 0}, {0, 0}}, 0, 4);
+  EXPECT_GT(quorum.doubt_px(0), 16);
+  quorum.forgive();
   expect_aside(quorum, Shifts(3, Vec2::Zero()));
 }
 
