@@ -31,23 +31,39 @@ Site two_cameras() {
   return site;
 }
 
-/// One before which another helmet moved for fifteen seconds.
-Tracker puzzled_tracker(const Site& site) {
-  Tracker tracker(site.cameras, site.heads, Rigid3{});
-  const std::vector<Vec3> others = {{-0.3, 1.65, 2}, {0, 1.95, 2.1}, {0.2, 1.65, 2}};
-  for (Time time{}; time < Time{std::chrono::seconds(15)}; time += std::chrono::milliseconds(10)) {
-    const Vec3 moved(0.25 * std::sin(1.3 * seconds(time.time_since_epoch())), 0, 0);
-    for (const int camera : {0, 1}) {
-      const CameraModel model(site.cameras[static_cast<std::size_t>(camera)]);
+/// Room from the head of somebody who steps left and right, turned by up to so much.
+Rigid3 stepping(double t_s, double yaw_rad = 0) {
+  return {rotation_of({0, yaw_rad * std::sin(0.7 * t_s), 0}),
+          {0.25 * std::sin(1.3 * t_s), 1.65, 2}};
+}
+
+/// What is said while the tracker is told of LEDs (in head), a hundred times a second, as cameras
+/// that truly stand as those of `truth` see them.
+std::string said_of(Tracker& tracker, const Site& truth, const std::vector<Vec3>& leds_in_head,
+                    std::chrono::seconds duration, double yaw_rad = 0) {
+  CameraWarnings warnings(truth);
+  ::testing::internal::CaptureStderr();
+  for (Time time{}; time < Time{duration}; time += std::chrono::milliseconds(10)) {
+    const Rigid3 pose = stepping(seconds(time.time_since_epoch()), yaw_rad);
+    for (int camera = 0; camera < std::ssize(truth.cameras); ++camera) {
+      const CameraModel model(truth.cameras[static_cast<std::size_t>(camera)]);
       Observation seen{camera, time, {}};
-      for (const Vec3& led_in_room : others) {
-        const Vec2 raw_px = *model.project(model.camera_from_room() * (led_in_room + moved));
-        seen.dots.push_back({raw_px.x(), raw_px.y(), 3});
+      for (const Vec3& led_in_head : leds_in_head) {
+        const Vec2 raw_px = *model.project(model.camera_from_room() * (pose * led_in_head));
+        seen.dots.push_back({std::round(raw_px.x()), std::round(raw_px.y()), 3});
       }
       tracker.absorb(seen);
     }
     tracker.track(time, time);
+    warnings.look(tracker, time);
   }
+  return ::testing::internal::GetCapturedStderr();
+}
+
+/// One before which another helmet moved for fifteen seconds.
+Tracker puzzled_tracker(const Site& site) {
+  Tracker tracker(site.cameras, site.heads, Rigid3{});
+  said_of(tracker, site, {{-0.3, 0, 0}, {0, 0.3, 0.1}, {0.2, 0, 0}}, std::chrono::seconds(15));
   return tracker;
 }
 
@@ -77,23 +93,7 @@ std::string said_of_three_cameras(double px) {
   Tracker tracker(site.cameras, site.heads, Rigid3{});
   Rigid3& turned = site.cameras[2].room_from_camera;
   turned.rotation = turned.rotation * rotation_of({px / 1335, 0, 0});
-  CameraWarnings warnings(site);
-  ::testing::internal::CaptureStderr();
-  for (Time time{}; time < Time{std::chrono::seconds(15)}; time += std::chrono::milliseconds(10)) {
-    const Vec3 head_in_room(0.25 * std::sin(1.3 * seconds(time.time_since_epoch())), 1.65, 2);
-    for (const int camera : {0, 1, 2}) {
-      const CameraModel model(site.cameras[static_cast<std::size_t>(camera)]);
-      Observation seen{camera, time, {}};
-      for (const Vec3& led_in_head : site.heads.front().leds_in_head) {
-        const Vec2 raw_px = *model.project(model.camera_from_room() * (head_in_room + led_in_head));
-        seen.dots.push_back({std::round(raw_px.x()), std::round(raw_px.y()), 3});
-      }
-      tracker.absorb(seen);
-    }
-    tracker.track(time, time);
-    warnings.look(tracker, time);
-  }
-  return ::testing::internal::GetCapturedStderr();
+  return said_of(tracker, site, site.heads.front().leds_in_head, std::chrono::seconds(15));
 }
 
 TEST(CameraWarningsOfThree, NameTheOneThatStandsAsideOrWasMoved) {
@@ -108,27 +108,10 @@ TEST(CameraWarningsOfThree, NameTheOneThatStandsAsideOrWasMoved) {
 std::string said_of_two_leds(double times) {
   Site site = two_cameras();
   site.heads.front().leds_in_head = {{-0.09, 0.03, -0.09}, {0, 0, 0}};
+  std::vector<Vec3> leds_in_head = site.heads.front().leds_in_head;
+  for (Vec3& led : leds_in_head) led *= times;
   Tracker tracker(site.cameras, site.heads, Rigid3{});
-  CameraWarnings warnings(site);
-  ::testing::internal::CaptureStderr();
-  for (Time time{}; time < Time{std::chrono::seconds(40)}; time += std::chrono::milliseconds(10)) {
-    const double t_s = seconds(time.time_since_epoch());
-    const Rigid3 pose{rotation_of({0, 0.6 * std::sin(0.7 * t_s), 0}),
-                      {0.25 * std::sin(1.3 * t_s), 1.65, 2}};
-    for (const int camera : {0, 1}) {
-      const CameraModel model(site.cameras[static_cast<std::size_t>(camera)]);
-      Observation seen{camera, time, {}};
-      for (const Vec3& led_in_head : site.heads.front().leds_in_head) {
-        const Vec2 raw_px =
-            *model.project(model.camera_from_room() * (pose * (times * led_in_head)));
-        seen.dots.push_back({std::round(raw_px.x()), std::round(raw_px.y()), 3});
-      }
-      tracker.absorb(seen);
-    }
-    tracker.track(time, time);
-    warnings.look(tracker, time);
-  }
-  return ::testing::internal::GetCapturedStderr();
+  return said_of(tracker, site, leds_in_head, std::chrono::seconds(40), 0.6);
 }
 
 TEST(CameraWarningsOfTwoLeds, SayWhatNoiseDoesNotExplain) {

@@ -141,7 +141,7 @@ void JointMethod::replay() {
     entry.after = i == 0 ? base_ : entries_[i - 1].after;
     const auto camera = static_cast<std::size_t>(entry.seen.camera);
     AssociationOptions options = association_;
-    options.may_widen = eyes_[camera].watch.may_widen() && !stands_aside(camera);
+    options.may_widen = eyes_[camera].watch.may_widen();
     options.farthest_px += 2 * disagreement_.sigma_px();
     TimedDots seen = entry.seen;
     if (stands_aside(camera)) seen.dots = {};

@@ -358,6 +358,16 @@ TEST_F(JointMethodTest, goes_on_with_the_two_that_agree_when_a_third_is_bumped_t
     }
 }
 
+TEST_F(JointMethodTest, takes_no_still_head_for_lamps_where_a_camera_stands_aside) {
+  add_middle_camera();
+  JointMethod method(configs_, heads_);
+  bump(0, 12, 2);
+  feed(method, 0, 12, [](double) { return std::vector{walking(0)}; });
+  const auto health = method.health();
+  EXPECT_NEAR(health[2].aside_px, 12, 1);
+  for (const CameraHealth& camera : health) EXPECT_EQ(camera.masks, 0u);
+}
+
 TEST_F(JointMethodTest, takes_in_again_a_camera_that_stood_aside_when_another_is_gone) {
   add_middle_camera();
   const std::vector<CameraConfig> calibrated = configs_;
