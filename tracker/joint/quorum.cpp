@@ -3,11 +3,15 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <utility>
+
+#include "tracker/joint/rotation.h"
 
 namespace vindu {
 namespace {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kStays = 1 - 1.0 / 40;    // of what is known, with each note: two seconds
 constexpr double kEnough = 5;              // notes that tell something
@@ -90,13 +94,15 @@ namespace {
 /// Empty where a camera cannot see the head, or its dots do not look like one.
 std::vector<LedSighting> sightings_of(const CameraModel& camera, const Glimpse& glimpse,
                                       std::span<const Vec3> leds_in_head, const Rigid3& at) {
+  const Rigid3 camera_from_head = camera.camera_from_room() * glimpse.room_from_head;
+  const Rigid3 camera_from_moved = camera.camera_from_room() * at;
   std::vector<Vec2> expected_px, moved_px;
   for (const Vec3& led : leds_in_head) {
-    const auto then = dot_of_led(camera, glimpse.room_from_head, led);
-    const auto there = dot_of_led(camera, at, led);
-    if (!then || !there) return {};
-    expected_px.push_back(then->raw_px);
-    moved_px.push_back(there->raw_px - then->raw_px);
+    const auto then_px = camera.project(camera_from_head * led);
+    const auto there_px = camera.project(camera_from_moved * led);
+    if (!then_px || !there_px) return {};
+    expected_px.push_back(*then_px);
+    moved_px.push_back(*there_px - *then_px);
   }
   const std::vector<int> labels = labels_aside(expected_px, glimpse.dots_px);
   const double sigma_px = std::hypot(glimpse.sigma_px, kDotSigma_px);
@@ -110,14 +116,18 @@ std::vector<LedSighting> sightings_of(const CameraModel& camera, const Glimpse& 
   return sightings;
 }
 
+struct Linearised {
+  QuorumEvidence evidence;
+  Vec6 step;  ///< to the pose that fits best: metres and radians in room
+};
+
 // Residuals are J pose + shift of the camera + size; the Schur complement leaves the last two.
-QuorumEvidence evidence_of(std::span<const CameraModel> cameras,
-                           std::span<const LedSighting> sightings, const Rigid3& room_from_head,
-                           Eigen::Index rows) {
+Linearised linearised_at(const Rigid3& room_from_head, std::span<const CameraModel> cameras,
+                         std::span<const LedSighting> sightings, Eigen::Index rows) {
   const Eigen::Index size = rows - 1;
   double square = 0;
   Mat6 of_pose = kPoseInformation * Mat6::Identity();
-  Eigen::Matrix<double, 6, 1> pose_pull = Eigen::Matrix<double, 6, 1>::Zero();
+  Vec6 pose_pull = Vec6::Zero();
   Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size + 1, size + 1);
   Eigen::MatrixXd with_pose = Eigen::MatrixXd::Zero(size + 1, 6);
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(size + 1);
@@ -144,9 +154,27 @@ QuorumEvidence evidence_of(std::span<const CameraModel> cameras,
     square += weight * residual_px.squaredNorm();
   }
   const Eigen::LDLT<Mat6> pose(of_pose);
-  return {own - with_pose * pose.solve(with_pose.transpose()),
-          pull - with_pose * pose.solve(pose_pull), square - pose_pull.dot(pose.solve(pose_pull)),
-          2 * static_cast<double>(sightings.size()) - 6};
+  const Vec6 step = pose.solve(pose_pull);
+  return {{own - with_pose * pose.solve(with_pose.transpose()), pull - with_pose * step,
+           square - pose_pull.dot(step), 2 * static_cast<double>(sightings.size()) - 6},
+          step};
+}
+
+/// Around the pose that fits best, by Gauss-Newton steps, as far as all is not linear. Empty where
+/// they lead nowhere.
+std::optional<QuorumEvidence> evidence_of(std::span<const CameraModel> cameras,
+                                          std::span<const LedSighting> sightings, Rigid3 pose,
+                                          Eigen::Index rows) {
+  constexpr double kLinear = 5e-3;  // metres and radians
+  constexpr int kSteps = 10;
+  for (int i = 0; i < kSteps; ++i) {
+    auto [evidence, step] = linearised_at(pose, cameras, sightings, rows);
+    if (!step.allFinite()) return std::nullopt;
+    if (step.norm() < kLinear) return evidence;
+    pose = {(rotation_of(step.tail<3>()) * pose.rotation).normalized(),
+            pose.translation + step.head<3>()};
+  }
+  return std::nullopt;
 }
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t camera) {
@@ -177,15 +205,11 @@ void Quorum::note(std::span<const CameraModel> cameras, std::span<const Vec3> le
   for (Standing& standing : standings_) standing.seen *= kStays;
   for (const std::size_t camera : seeing) ++standings_[camera].seen;
   if (seeing.size() < 3) return;
-  const PosePrior anywhere{glimpses[0].room_from_head, kPoseInformation * Mat6::Identity()};
-  const auto fit = fit_pose(cameras, sightings, anywhere.room_from_head, anywhere,
-                            {.huber_sigmas = std::numeric_limits<double>::infinity()});
-  if (!fit) return;
-  const QuorumEvidence news =
-      evidence_of(cameras, sightings, fit->room_from_head, known_.pull.size());
-  if (torn_by(news)) forget();
-  known_.information = kStays * known_.information + news.information;
-  known_.pull = kStays * known_.pull + news.pull;
+  const auto news = evidence_of(cameras, sightings, glimpses[0].room_from_head, known_.pull.size());
+  if (!news) return;
+  if (torn_by(*news)) forget();
+  known_.information = kStays * known_.information + news->information;
+  known_.pull = kStays * known_.pull + news->pull;
   for (Standing& standing : standings_) standing.weighed *= kStays;
   for (const std::size_t camera : seeing) ++standings_[camera].weighed;
   judge();
