@@ -71,14 +71,6 @@ bool same_pose(const Rigid3& a, const Rigid3& b) {
          a.rotation.angularDistance(b.rotation) < radians(20);
 }
 
-/// What its dots are off by, those that are a little too far off for any correction included.
-std::vector<MisfitDot> misfit_of(const TimedDots& seen, const Association& association) {
-  std::vector<MisfitDot> dots = association.aside;
-  for (const AcceptedDot& dot : association.accepted)
-    dots.push_back({raw_px_of(seen.dots[dot.dot]) - dot.residual_px, dot.residual_px});
-  return dots;
-}
-
 }  // namespace
 
 JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const HeadConfig> heads,
@@ -94,7 +86,8 @@ JointMethod::JointMethod(std::span<const CameraConfig> cameras, std::span<const 
     cameras_.emplace_back(camera);
     eyes_.push_back({.clock = CaptureClock(from_seconds(1e-3 * camera.lag_ms)),
                      .uses_device_time = camera.source != CameraSource::video,
-                     .statics = StaticDots({}, camera.masks_px)});
+                     .statics = StaticDots({}, camera.masks_px),
+                     .sizes = DotSizes(camera.source)});
   }
   for (const HeadConfig& head : heads) leds_of_heads_.push_back(head.leds_in_head);
 }
@@ -116,7 +109,8 @@ void JointMethod::absorb(const Observation& observation) {
                 .distrust = eye.watch.distrust(),
                 .dots = {}};
   for (const Dot& dot : observation.dots) {
-    entry.seen.masked[entry.seen.dots.size()] = eye.statics.masked(raw_px_of(dot));
+    entry.seen.masked[entry.seen.dots.size()] =
+        eye.statics.masked(raw_px_of(dot)) || eye.sizes.too_large(dot, used.time);
     entry.seen.dots.push_back(dot);
   }
   insert(std::move(entry));
@@ -167,54 +161,6 @@ void JointMethod::forget_old() {
     entries_.pop_front();
     --replay_from_;
   }
-}
-
-// Where a head was found by two cameras or more, a further one whose dots are all left over does
-// not stand where it is said to. Of two cameras nobody can say which is wrong.
-void JointMethod::judge_cameras(const std::vector<CameraView>& views, const FoundHead& found) {
-  const auto labelled = [](const std::vector<int>& leds) {
-    return std::ranges::any_of(leds, [](int led) { return led >= 0; });
-  };
-  const auto agree = std::ranges::count_if(found.led_of_dot, labelled);
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    const auto camera = static_cast<std::size_t>(views[v].camera);
-    if (const bool fits = labelled(found.led_of_dot[v]);
-        views[v].dots_px.size() >= 2 && agree - fits >= 2 && (fits || !quorum_.knows(camera)))
-      eyes_[camera].watch.judge(fits);
-  }
-}
-
-// What a report says of its camera counts once, however often the report is replayed.
-void JointMethod::judge(Entry& entry) {
-  if (entry.judged) return;
-  entry.judged = true;
-  const auto camera = static_cast<std::size_t>(entry.seen.camera);
-  Eye& eye = eyes_[camera];
-  std::array<bool, kMaxDots> explained{};
-  for (const AcceptedDot& dot : entry.association.accepted) explained[dot.dot] = true;
-  for (std::size_t i = 0; i < entry.seen.dots.size(); ++i) {
-    const Vec2 raw_px = raw_px_of(entry.seen.dots[i]);
-    if (explained[i])
-      eye.statics.release(raw_px, entry.seen.captured);
-    else if (!entry.association.disputed[i] && !stands_aside(camera))
-      eye.statics.watch(raw_px, entry.seen.captured);
-  }
-  eye.watch.count(entry.association);
-  if (!options_.position_only) eye.watch.note_misfit(misfit_of(entry.seen, entry.association));
-  if (may_contradict()) note_disagreement();
-  const double other_s = seconds(entry.other_time - entry.seen.captured);
-  if (eye.clock.locked() && eye.watch.prefers_other_time(entry.association, other_s))
-    eye.uses_device_time = !eye.uses_device_time;
-}
-
-/// Of two cameras: of more, the one that stands aside is named, and trusted less. Where heads
-/// face the wall, whatever they do, dots never fit.
-bool JointMethod::may_contradict() const { return cameras_.size() == 2 && !options_.position_only; }
-
-void JointMethod::note_disagreement() {
-  double largest_px = 0;
-  for (const Eye& eye : eyes_) largest_px = std::max(largest_px, eye.watch.aside_px().norm());
-  disagreement_.note_aside(largest_px);
 }
 
 /// The newest time that all cameras which have reported lately have reported of.

@@ -17,6 +17,7 @@
 #include "tracker/joint/camera_watch.h"
 #include "tracker/joint/capture_clock.h"
 #include "tracker/joint/disagreement.h"
+#include "tracker/joint/dot_sizes.h"
 #include "tracker/joint/quorum.h"
 #include "tracker/joint/static_dots.h"
 
@@ -85,6 +86,7 @@ class JointMethod {
     CaptureClock clock;
     bool uses_device_time = true;
     StaticDots statics{};
+    DotSizes sizes{};
     CameraWatch watch{};
   };
 

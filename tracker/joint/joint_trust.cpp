@@ -1,5 +1,5 @@
 // What the joint method makes of the newest reports: whether a head is sure, how well its dots fix
-// it, and what does not fit.
+// it, and whether any head fits.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -136,90 +136,10 @@ void JointMethod::add_misfit(std::size_t head, PoseSample& sample) const {
   }
 }
 
-double JointMethod::heads_look_larger() const {
-  double most = 0;
-  for (std::size_t camera = 0; camera < eyes_.size(); ++camera)
-    if (const double larger = eyes_[camera].watch.larger();
-        !moved(camera) && !stands_aside(camera) && std::abs(larger) > std::abs(most))
-      most = larger;
-  return eyes_.size() > 1 ? most : 0;
-}
-
-bool JointMethod::moved(std::size_t camera) const {
-  constexpr double kMoved_px = 12;  // half a degree of a Wiimote
-  return eyes_[camera].watch.moved() || quorum_.aside_px(camera).norm() > kMoved_px;
-}
-
-/// Too far for its dots to be of use.
-bool JointMethod::stands_aside(std::size_t camera) const {
-  constexpr double kTooFar_px = 2;
-  return quorum_.aside_px(camera).norm() > kTooFar_px;
-}
-
-/// Whether nobody is tracked though two cameras see dots: those that were named may be right again,
-/// and others wrong.
-bool JointMethod::puzzled() const {
-  if (entries_.empty() || std::ranges::any_of(newest_heads(), [](const HeadTrack& track) {
-        return track.state.has_value();
-      }))
-    return false;
-  return std::ranges::count_if(together(common_time()), [&](std::size_t entry) {
-           return entries_[entry].seen.dots.size() >= 2;
-         }) >= 2;
-}
-
-// By the dots of the cameras' newest pictures, each where the head was by then.
-void JointMethod::weigh_tracked(Time now) {
-  constexpr Duration kPause = Milliseconds(50);
-  if (cameras_.size() < 3 || options_.position_only || entries_.empty() || now - weighed_ < kPause)
-    return;
-  weighed_ = now;
-  const std::vector<std::size_t> entries = together(common_time());
-  if (entries.size() < 3) return;
-  const Entry& first = entries_[*std::ranges::min_element(entries)];
-  for (std::size_t head = 0; head < leds_of_heads_.size(); ++head) {
-    const auto& state = first.after[head].state;
-    if (!state) continue;
-    std::vector<Glimpse> glimpses;
-    for (const std::size_t i : entries) {
-      const CameraView view = view_of(entries_[i], head, Duration::zero(), 0);
-      const PoseSample then = predicted(*state, entries_[i].seen.captured - state->time);
-      glimpses.push_back({view.camera, then.room_from_head, view.dots_px, view.sigma_px});
-    }
-    quorum_.note(cameras_, leds_of_heads_[head], glimpses);
-  }
-}
-
-/// The same where no head is tracked, and cameras contradict each other in where it is.
-void JointMethod::weigh(const Look& look, std::size_t head) {
-  const auto leading = look.search.leading();
-  if (cameras_.size() < 3 || options_.position_only || !leading) return;
-  std::vector<Glimpse> glimpses;
-  const Time common = common_time();
-  for (const std::size_t i : together(common)) {
-    const CameraView view =
-        view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common), 0);
-    glimpses.push_back({view.camera, *leading, view.dots_px, view.sigma_px});
-  }
-  quorum_.note(cameras_, leds_of_heads_[head], glimpses);
-}
-
 bool JointMethod::nothing_fits() const {
   return !options_.position_only && std::ranges::any_of(searches_, [](const Search& search) {
     return search.failed.baffled();
   });
-}
-
-std::vector<CameraHealth> JointMethod::health() const {
-  std::vector<CameraHealth> health;
-  for (std::size_t camera = 0; camera < eyes_.size(); ++camera) {
-    const Eye& eye = eyes_[camera];
-    health.push_back({.moved = moved(camera),
-                      .device_time = eye.uses_device_time && eye.clock.locked(),
-                      .masks = eye.statics.masks_px().size(),
-                      .aside_px = quorum_.aside_px(camera).norm()});
-  }
-  return health;
 }
 
 }  // namespace vindu

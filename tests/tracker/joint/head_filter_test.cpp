@@ -1,4 +1,4 @@
-// The filter of one head, its association with dots, and the masks of reflections.
+// The filter of one head, its association with dots, and what is known of reflections.
 #include "tracker/joint/head_filter.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include "tests/tracker/joint/scene.h"
 #include "tracker/joint/association.h"
 #include "tracker/joint/camera_watch.h"
+#include "tracker/joint/dot_sizes.h"
 #include "tracker/joint/rotation.h"
 #include "tracker/joint/static_dots.h"
 
@@ -362,6 +363,34 @@ TEST(StaticDots, forget_a_mask_that_hid_nothing_for_ten_minutes_but_not_the_back
   dots.watch({10, 10}, Time{} + std::chrono::minutes(12));
   EXPECT_FALSE(dots.masked({300, 200}));
   EXPECT_TRUE(dots.masked({700, 700}));
+}
+
+TEST(DotSizes, know_what_is_far_larger_than_the_dots_of_heads_were_lately) {
+  DotSizes sizes;
+  EXPECT_FALSE(sizes.too_large({0, 0, 15}, Time{}));
+  sizes.note({0, 0, 3}, Time{});
+  sizes.note({0, 0, 1}, Time{} + milliseconds(10));
+  EXPECT_FALSE(sizes.too_large({0, 0, 8}, Time{} + milliseconds(20)));
+  EXPECT_TRUE(sizes.too_large({0, 0, 10}, Time{} + milliseconds(20)));
+  EXPECT_FALSE(sizes.too_large({0, 0, 10}, Time{} + milliseconds(2020)));
+}
+
+TEST(DotSizes, let_a_head_grow_that_comes_nearer_and_shrink_as_it_goes) {
+  DotSizes sizes;
+  for (int size = 1; size <= 15; ++size) {
+    const Time time = Time{} + milliseconds(100 * size);
+    EXPECT_FALSE(sizes.too_large({0, 0, size}, time)) << size;
+    sizes.note({0, 0, size}, time);
+  }
+  for (int i = 0; i < 300; ++i) sizes.note({0, 0, 1}, Time{} + milliseconds(2000 + 100 * i));
+  EXPECT_TRUE(sizes.too_large({0, 0, 6}, Time{} + milliseconds(32000)));
+}
+
+TEST(DotSizes, are_areas_in_a_video_cameras_pictures) {
+  DotSizes sizes(CameraSource::video);
+  sizes.note({0, 0, 9}, Time{});
+  EXPECT_FALSE(sizes.too_large({0, 0, 64}, Time{}));
+  EXPECT_TRUE(sizes.too_large({0, 0, 100}, Time{}));
 }
 
 TEST(CameraWatch, names_a_camera_that_fits_nothing_for_a_second_and_takes_it_back) {

@@ -65,8 +65,7 @@ class JointMethodTest : public ::testing::Test {
     return pose ? (pose->room_from_head.translation - truth.translation).norm() : 1e9;
   }
 
-  /// Somebody turns a camera: about its x axis (its picture moves up and down) or its y
-  /// axis.
+  /// Somebody turns a camera: about its x axis (its picture moves up and down) or its y axis.
   void bump(int axis, double px, std::size_t camera = 1) {
     Vec3 turn = Vec3::Zero();
     turn[axis] = px / 1335;
@@ -181,6 +180,25 @@ TEST_F(JointMethodTest, masks_a_lamp_that_stands_beside_the_walker) {
   }
   for (const CameraHealth& health : method.health()) EXPECT_EQ(health.masks, 1u);
   EXPECT_LT(error_m(method, 0, Time{milliseconds(7990)}, walking(7.99)), 0.006);
+}
+
+// Where one camera sees two LEDs, a reflection near the third would be taken for it.
+TEST_F(JointMethodTest, takes_no_dot_for_an_led_that_is_far_larger_than_they_were) {
+  const auto after_reflection = [&](int size) {
+    random_ = Random(1);
+    JointMethod method(configs_, heads_);
+    feed(method, 0, 2, [](double t) { return std::vector{walking(t)}; });
+    for (int k = 200; k < 240; ++k) {
+      Observation seen = seen_by(0, {walking(0.01 * k)}, Time{milliseconds(10 * k)});
+      seen.dots[2] = {seen.dots[2].x_px + (size && k > 210 ? 0.1 * (k - 210) : 500),
+                      seen.dots[2].y_px, size};
+      method.absorb(seen);
+      method.update(seen.arrival);
+    }
+    return method.pose(0, Time{milliseconds(2390)})->room_from_head.translation;
+  };
+  EXPECT_EQ(after_reflection(12), after_reflection(0));  // which is far away
+  EXPECT_NE(after_reflection(4), after_reflection(0));
 }
 
 TEST_F(JointMethodTest, knows_the_calibrated_background_from_the_first_report_on) {
