@@ -129,7 +129,7 @@ int leds_of(const HeadCommand& command, const Site& site, const HeadConfig& know
     throw Error({fmt::format("is {}, and emulated cameras see the {} LEDs of {}", leds, of_known,
                              known.name),
                  "--leds", "leave it out, or give its leds_m in the wall file as many points"});
-  expect_measurable(leds, known);
+  expect_measurable(leds, known, site.cameras);
   return leds;
 }
 
@@ -194,7 +194,8 @@ void add_calibrate_head(CLI::App& calibrate, Action& chosen) {
   add_calibrate_options(*app, command->common);
   app->add_option("--head", command->name, "Its name (default: the wall file's first)");
   app->add_option("--leds", command->leds,
-                  "How many it has, 3 or 4 (default: 3, of emulated ones as the wall file says)")
+                  "How many it has, 3 to 8, Wiimotes tell of 4 (default: 3, of emulated ones as "
+                  "the wall file says)")
       ->check(CLI::Range(3, 16).description(""));
   app->add_option("--still-s", command->head.still_s,
                   "So long the wearer stands still at first, facing the wall (default: 2)")

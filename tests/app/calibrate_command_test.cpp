@@ -196,15 +196,17 @@ TEST_F(CalibrateCommand, OfAHeadOfManyLedsIsRefusedWithWhatToDo) {
                "leds_m = [[0.05, 0.06, -0.03], [-0.05, 0.06, -0.02], ");
   const ProcessResult result = vindu({"calibrate", "head", "--wall", write("five.toml", wall)});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("head: has 5 LEDs; three or four can be measured"),
-                                HasSubstr("leds_m")));
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("head: has 5 LEDs, and no two cameras tell of more than 4 dots"),
+                    HasSubstr("leds_m")));
 }
 
 TEST_F(CalibrateCommand, OfAHeadRefusesTooManyLedsBeforeAnybodyLooks) {
   const ProcessResult result = vindu(
       {"calibrate", "head", "--wall", wall_, "--leds", "6", "--from", path("not-there.vrec")});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("head: has 6 LEDs; three or four can be measured"));
+  EXPECT_THAT(result.err,
+              HasSubstr("head: has 6 LEDs, and no two cameras tell of more than 4 dots"));
 }
 
 TEST_F(CalibrateCommand, OfAHeadRefusesAnEyeThatNoHeadHas) {

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "tests/calibration/emulated_capture.h"
+#include "tracker/camera_model.h"
 
 namespace vindu {
 namespace {
@@ -43,6 +45,56 @@ TEST(Head, FindsTheLedsAndTheEye) {
     EXPECT_LT((result.head.leds_in_head[i] - truth.leds_in_head[i]).norm(), 0.003) << i;
   EXPECT_LT((result.head.eye_in_head - truth.eye_in_head).norm(), 0.004);
   EXPECT_LT(result.rms_px, 1);
+}
+
+/// Dots of bare LEDs as two video cameras see them, in no order, 60 times a second.
+Capture of_video_cameras(const std::vector<CameraConfig>& cameras, const std::vector<Vec3>& leds,
+                         const BodyMotion& room_from_head) {
+  Random random(1);
+  Capture capture{.observations = {}, .up_in_camera = {{}, {}}};
+  for (int k = 0; k < 40 * 60; ++k)
+    for (int i = 0; i < 2; ++i) {
+      const CameraModel camera(cameras[static_cast<std::size_t>(i)]);
+      Observation seen{i, Time{} + from_seconds(k / 60.0 + 1e-3 * i), {}};
+      const Rigid3 camera_from_head = camera.camera_from_room() * room_from_head(seen.arrival);
+      for (std::size_t n = 0; n < leds.size(); ++n) {
+        const Vec3& led = leds[(n * 3 + static_cast<std::size_t>(k)) % leds.size()];
+        const Vec2 dot_px = *camera.project(camera_from_head * led);
+        seen.dots.push_back({dot_px.x() + random.normal(0.3), dot_px.y() + random.normal(0.3), 20});
+      }
+      capture.observations.push_back(seen);
+    }
+  return capture;
+}
+
+TEST(Head, OfEightLedsIsMeasuredByVideoCameras) {
+  std::vector<CameraConfig> cameras = true_site({{-1, 2.3, 5}, {1, 2.3, 5}}).cameras;
+  for (CameraConfig& camera : cameras) {
+    camera.source = CameraSource::video;
+    camera.video.width_px = 1024, camera.video.height_px = 768;
+  }
+  const std::vector<Vec3> truth = {
+      {-0.10, 0.01, -0.08}, {-0.08, -0.06, -0.04}, {-0.04, 0.05, -0.03}, {-0.01, -0.04, -0.02},
+      {0.01, 0.02, 0},      {0.05, -0.03, -0.03},  {0.08, 0.06, -0.06},  {0.11, -0.01, -0.09}};
+  const Vec3 place(0.05, 1.68, 2.0);
+  const Site site = true_site({});
+  HeadOptions options{.leds = 8, .eye_in_room = place + Vec3(0, -0.11, -0.18)};
+  const HeadResult result =
+      calibrate_head(of_video_cameras(cameras, truth, still_then_moving(place)), cameras,
+                     site.wall.room_from_wall, {}, options);
+  ASSERT_EQ(result.head.leds_in_head.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_LT((result.head.leds_in_head[i] - (truth[i] - truth[4])).norm(), 0.003) << i;
+  EXPECT_LT((result.head.eye_in_head - Vec3(0, -0.11, -0.18) + truth[4]).norm(), 0.004);
+  EXPECT_LT(result.rms_px, 1);
+}
+
+TEST(Head, OfMoreLedsThanTwoCamerasTellOfIsRefused) {
+  const Site site = true_site({{-1, 2.3, 5}, {1, 2.3, 5}});
+  HeadOptions five;
+  five.leds = 5;
+  EXPECT_THAT([&] { calibrate_head({}, site.cameras, site.wall.room_from_wall, {}, five); },
+              ThrowsMessage<Error>(HasSubstr("no two cameras tell of more than 4 dots")));
 }
 
 TEST(Head, OfAWearerWhoDoesNotStandStillIsRefused) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <functional>
+#include <span>
+#include <utility>
 
 #include "core/error.h"
 #include "tracker/calibration/lens.h"
@@ -24,6 +26,7 @@ constexpr double kWorstMisfit_m = 1;  // of no moments: worse than any
 constexpr double kMisfit_m = 0.02;    // rms of a moment's points from the helmet's
 constexpr std::size_t kTrials = 60;   // moments that choose the shape
 constexpr std::size_t kFewestHeadMoments = 50;
+constexpr std::size_t kFewestLeds = 3, kMostLeds = 8;
 
 /// What two cameras saw at one time, all LEDs in both; and, once they are matched, which is which.
 struct Moment {
@@ -74,80 +77,133 @@ CameraConfig with_image_dots(CameraConfig camera) {
   return camera;
 }
 
-/// The points of all pairs of dots, and their gaps.
-struct Crossings {
-  std::size_t count = 0;
-  std::vector<std::optional<TriangulatedPoint>> points;
-  const std::optional<TriangulatedPoint>& at(std::size_t a, std::size_t b) const {
-    return points[a * count + b];
-  }
+/// Where the rays of two dots nearly meet: they may be one LED.
+struct Crossing {
+  std::size_t a = 0, b = 0;  // the dots
+  Vec3 x_in_room;
+  double gap_m = 0;
 };
+using Crossings = std::vector<Crossing>;
 
 Crossings cross(const CameraModel& a, const CameraModel& b, const Moment& moment) {
-  Crossings crossings{moment.a_px.size(), {}};
-  for (const Vec2& in_a : moment.a_px)
-    for (const Vec2& in_b : moment.b_px) {
-      auto point = triangulate(a.ray_through(in_a), b.ray_through(in_b));
-      if (point && point->gap_m > kGap_m) point.reset();
-      crossings.points.push_back(point);
+  Crossings crossings;
+  for (std::size_t i = 0; i < moment.a_px.size(); ++i)
+    for (std::size_t j = 0; j < moment.b_px.size(); ++j) {
+      const auto point = triangulate(a.ray_through(moment.a_px[i]), b.ray_through(moment.b_px[j]));
+      if (point && point->gap_m < kGap_m)
+        crossings.push_back({i, j, point->x_in_room, point->gap_m});
     }
   return crossings;
 }
 
-std::optional<Points> points_of(const Crossings& crossings, const Order& of_a, const Order& of_b) {
+/// Goes through the ways to choose a crossing for each LED, no dot twice.
+class Matching {
+ public:
+  explicit Matching(const Crossings& crossings) : crossings_(crossings) {}
+
+  /// Calls `done(chosen)` for all of `count` crossings of which each may be, beside those chosen
+  /// before it: `fits(crossing, chosen)`.
+  template <class Fits, class Done>
+  void each(std::size_t count, Fits fits, Done done) {
+    if (chosen_.size() == count) return done(chosen_);
+    for (const Crossing& crossing : crossings_) {
+      const auto shares_a_dot = [&](const Crossing& other) {
+        return other.a == crossing.a || other.b == crossing.b;
+      };
+      if (std::ranges::any_of(chosen_, shares_a_dot) || !fits(crossing, chosen_)) continue;
+      chosen_.push_back(crossing);
+      each(count, fits, done);
+      chosen_.pop_back();
+    }
+  }
+
+ private:
+  const Crossings& crossings_;
+  Crossings chosen_;
+};
+
+Points points_of(const Crossings& crossings) {
   Points points;
-  for (std::size_t i = 0; i < of_a.size(); ++i) {
-    const auto& point = crossings.at(of_a[i], of_b[i]);
-    if (!point) return std::nullopt;
-    points.push_back(point->x_in_room);
+  for (const Crossing& crossing : crossings) points.push_back(crossing.x_in_room);
+  return points;
+}
+
+/// The labels for which a moment's points fit the shape best, turned from it by less than 75
+/// degrees; the misfit, or a large one. LEDs in the order of the shape.
+double match(const Crossings& crossings, const Points& shape, Moment& moment) {
+  constexpr double kOff_m = 2 * kMisfit_m;  // of a distance between two
+  double least_m = kWorstMisfit_m;
+  const auto rigid = [&](const Crossing& next, const Crossings& chosen) {
+    const Vec3& led = shape[chosen.size()];
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (std::abs((next.x_in_room - chosen[i].x_in_room).norm() - (led - shape[i]).norm()) >
+          kOff_m)
+        return false;
+    return true;
+  };
+  Matching(crossings).each(shape.size(), rigid, [&](const Crossings& chosen) {
+    const PointFit fit = fit_points(points_of(chosen), shape);
+    const bool upright = Eigen::AngleAxisd(fit.rotation).angle() < radians(75);
+    if (!upright || fit.rms >= least_m) return;
+    least_m = fit.rms;
+    moment.of_a.clear(), moment.of_b.clear();
+    for (const Crossing& crossing : chosen) {
+      moment.of_a.push_back(crossing.a);
+      moment.of_b.push_back(crossing.b);
+    }
+    moment.room_from_shape = Rigid3::from(fit.rotation, fit.translation);
+  });
+  return least_m;
+}
+
+/// Each farthest from those before it: the first ones tell most of how the others lie.
+Points far_first(Points points) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto chosen = std::span(points).first(i);
+    const auto distance = [&](const Vec3& point) {
+      double nearest_m = kWorstMisfit_m;
+      for (const Vec3& other : chosen) nearest_m = std::min(nearest_m, (point - other).norm());
+      return nearest_m;
+    };
+    const auto rest = points.begin() + static_cast<std::ptrdiff_t>(i);
+    std::iter_swap(rest, std::ranges::max_element(rest, points.end(), {}, distance));
   }
   return points;
 }
 
-std::vector<Order> orders_of(std::size_t count) {
-  Order order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::vector<Order> all;
-  do all.push_back(order);
-  while (std::ranges::next_permutation(order).found);
-  return all;
-}
-
-/// The labels for which a moment's points fit the shape best, turned from it by less than 75
-/// degrees; the misfit, or a large one.
-double match(const Crossings& crossings, const std::vector<Order>& orders, const Points& shape,
-             Moment& moment) {
-  double least_m = 1;
-  for (const Order& of_a : orders)
-    for (const Order& of_b : orders) {
-      const auto points = points_of(crossings, of_a, of_b);
-      if (!points) continue;
-      const PointFit fit = fit_points(*points, shape);
-      const bool upright = Eigen::AngleAxisd(fit.rotation).angle() < radians(75);
-      if (!upright || fit.rms >= least_m) continue;
-      least_m = fit.rms;
-      moment.of_a = of_a, moment.of_b = of_b;
-      moment.room_from_shape = Rigid3::from(fit.rotation, fit.translation);
-    }
-  return least_m;
+/// The shapes that one moment allows, those whose rays meet most closely first.
+std::vector<Points> shapes_of(const Crossings& crossings, std::size_t leds) {
+  constexpr std::size_t kMost = 100;
+  std::vector<std::pair<double, Points>> shapes;
+  const auto in_order = [](const Crossing& next, const Crossings& chosen) {
+    return next.a == chosen.size();
+  };
+  Matching(crossings).each(leds, in_order, [&](const Crossings& chosen) {
+    double square_m2 = 0;
+    for (const Crossing& crossing : chosen) square_m2 += crossing.gap_m * crossing.gap_m;
+    shapes.emplace_back(square_m2, points_of(chosen));
+  });
+  std::ranges::sort(shapes, {}, &std::pair<double, Points>::first);
+  if (shapes.size() > kMost) shapes.resize(kMost);
+  std::vector<Points> closest;
+  for (auto& [square_m2, points] : shapes) closest.push_back(far_first(std::move(points)));
+  return closest;
 }
 
 /// The shape, as the first moment allows it, that the others fit best.
-Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<Order>& orders,
-                    const std::vector<Moment>& moments) {
+Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<Moment>& moments) {
   Points best;
   double least_m = kMisfit_m;
-  for (const Order& of_b : orders) {
-    const auto shape = points_of(crossings[0], orders[0], of_b);
-    if (!shape) continue;
+  const std::size_t leds = moments[0].a_px.size();
+  for (const Points& shape : shapes_of(crossings[0], leds)) {
     std::vector<double> misfits_m;
     const std::size_t step = std::max<std::size_t>(1, moments.size() / kTrials);
     for (std::size_t i = 0; i < moments.size(); i += step) {
       Moment moment = moments[i];
-      misfits_m.push_back(match(crossings[i], orders, *shape, moment));
+      misfits_m.push_back(match(crossings[i], shape, moment));
     }
     if (const double misfit_m = median(misfits_m, kWorstMisfit_m); misfit_m < least_m)
-      least_m = misfit_m, best = *shape;
+      least_m = misfit_m, best = shape;
   }
   return best;
 }
@@ -221,9 +277,14 @@ std::pair<std::size_t, std::size_t> best_pair(const std::vector<CameraTrack>& tr
 Error too_few_moments(const std::vector<CameraTrack>& tracks,
                       const std::vector<CameraConfig>& cameras, std::size_t leds,
                       std::size_t moments) {
-  const std::size_t other = leds == 3 ? 4 : 3;
-  const auto [a, b] = best_pair(tracks, cameras, other);
-  const std::size_t of_other = moments_of(tracks, cameras, a, b, other).size();
+  const auto moments_of_best = [&](std::size_t count) {
+    const auto [a, b] = best_pair(tracks, cameras, count);
+    return moments_of(tracks, cameras, a, b, count).size();
+  };
+  std::size_t other = leds, of_other = 0;
+  for (std::size_t count = kFewestLeds; count <= kMostLeds; ++count)
+    if (const std::size_t seen = moments_of_best(count); count != leds && seen > of_other)
+      other = count, of_other = seen;
   std::string remedy = "stay in view of two cameras for half a minute, turn little at a time";
   if (of_other >= kFewestHeadMoments)
     remedy = fmt::format(
@@ -269,19 +330,29 @@ std::vector<Moment> thinned(std::vector<Moment> moments, double still_s, int mos
 
 }  // namespace
 
-void expect_measurable(int leds, const HeadConfig& head) {
-  if (leds >= 3 && leds <= 4) return;
-  throw Error({fmt::format("has {} LEDs; three or four can be measured", leds), "head " + head.name,
-               "cover the others, which it then does without, or measure all by hand and give "
-               "them in the wall file: leds_m, eye_m"});
+void expect_measurable(int leds, const HeadConfig& head, std::span<const CameraConfig> cameras) {
+  const auto count = static_cast<std::size_t>(leds);
+  const std::string remedy =
+      "cover the others, which it then does without, or measure all by hand and give them in the "
+      "wall file: leds_m, eye_m";
+  if (count < kFewestLeds || count > kMostLeds)
+    throw Error({fmt::format("has {} LEDs; {} to {} can be measured", leds, kFewestLeds, kMostLeds),
+                 "head " + head.name, remedy});
+  std::vector<std::size_t> most;
+  for (const CameraConfig& camera : cameras) most.push_back(most_dots(camera));
+  std::ranges::sort(most, std::greater{});
+  if (most.size() < 2)
+    throw Error({"has fewer than two cameras", "wall file", "a helmet's LEDs are measured by two"});
+  if (count > most[1])
+    throw Error(
+        {fmt::format("has {} LEDs, and no two cameras tell of more than {} dots", leds, most[1]),
+         "head " + head.name, remedy});
 }
 
 HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig>& cameras,
                           const Rigid3& room_from_wall, const HeadConfig& head,
                           const HeadOptions& options) {
-  expect_measurable(options.leds, head);
-  if (cameras.size() < 2)
-    throw Error({"has fewer than two cameras", "wall file", "a helmet's LEDs are measured by two"});
+  expect_measurable(options.leds, head, cameras);
   const auto leds = static_cast<std::size_t>(options.leds);
   const auto tracks = moving_dots(capture, cameras);
   const auto [a, b] = best_pair(tracks, cameras, leds);
@@ -292,14 +363,13 @@ HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig
   const CameraModel model_a(with_image_dots(cameras[a])), model_b(with_image_dots(cameras[b]));
   std::vector<Crossings> crossings;
   for (const Moment& moment : moments) crossings.push_back(cross(model_a, model_b, moment));
-  const auto orders = orders_of(leds);
-  Points shape = choose_shape(crossings, orders, moments);
+  Points shape = choose_shape(crossings, moments);
   if (shape.empty())
     throw Error({"its dots are no rigid body", "head",
                  "calibrate the cameras first; take other lights and shiny things away"});
   std::vector<Moment> good;
   for (std::size_t i = 0; i < moments.size(); ++i)
-    if (match(crossings[i], orders, shape, moments[i]) < kMisfit_m) good.push_back(moments[i]);
+    if (match(crossings[i], shape, moments[i]) < kMisfit_m) good.push_back(moments[i]);
   HeadResult result;
   result.rms_px = adjust(cameras[a], cameras[b], good, shape);
   result.moments = static_cast<int>(good.size());
@@ -313,7 +383,7 @@ HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig
     result.head.eye_in_head = inverse(room_from_wall) * *options.eye_in_room - rear;
   std::vector<double> misfits_m;
   for (std::size_t i = 0; i < moments.size(); ++i)
-    misfits_m.push_back(match(crossings[i], orders, shape, moments[i]));
+    misfits_m.push_back(match(crossings[i], shape, moments[i]));
   result.led_sigma_mm =
       1e3 * median(misfits_m, kWorstMisfit_m) / std::sqrt(static_cast<double>(good.size()));
   return result;

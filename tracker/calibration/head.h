@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tracker/calibration/capture.h"
@@ -24,8 +25,9 @@ struct HeadResult {
   int moments = 0;
 };
 
-/// Throws Error for more or fewer LEDs than can be measured: all orders of the dots are tried.
-void expect_measurable(int leds, const HeadConfig& head);
+/// Throws Error for fewer than two cameras, and for fewer than three LEDs, more than eight, or more
+/// than two cameras tell of at once.
+void expect_measurable(int leds, const HeadConfig& head, std::span<const CameraConfig> cameras);
 
 /// `head` is what is known: its eye, where that is not measured. Throws Error for LEDs that are not
 /// seen, for a wearer who moves while he should stand, and for dots that are no rigid body.
