@@ -15,17 +15,11 @@ namespace {
 /// What was wrong is not over before it has not been so for this time: people move in between.
 constexpr Duration kOver = std::chrono::seconds(30);
 
+}  // namespace
+
 bool stands_aside(const CameraHealth& camera) {
   constexpr double kTold_px = 2;
   return camera.aside_px > kTold_px;
-}
-
-}  // namespace
-
-std::optional<std::size_t> camera_aside(const std::vector<CameraHealth>& health) {
-  const auto most = std::ranges::max_element(health, {}, &CameraHealth::aside_px);
-  if (most == health.end() || !stands_aside(*most)) return std::nullopt;
-  return static_cast<std::size_t>(most - health.begin());
 }
 
 // Two LEDs leave open how the head turns about their line, and where it is drawn to pulls at their
@@ -94,12 +88,10 @@ CameraWarnings::Complaint::News CameraWarnings::Complaint::look(bool wrong, Time
 void CameraWarnings::look_at_cameras(const Tracker& tracker, Time now) {
   using News = Complaint::News;
   const auto health = tracker.camera_health();
-  const auto most = camera_aside(health);
   for (std::size_t i = 0; i < health.size(); ++i) {
     Camera& camera = cameras_[i];
-    const bool aside = most == i || (camera.aside.told() && stands_aside(health[i]));
     const News moved = camera.moved.look(health[i].moved, now);
-    const News off = camera.aside.look(aside, now);
+    const News off = camera.aside.look(stands_aside(health[i]), now);
     if (moved == News::begins)
       log_warning(camera.name,
                   "was moved: its dots do not fit what the others see, and count for less; "

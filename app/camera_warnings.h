@@ -2,7 +2,6 @@
 // other or the heads. Said when it becomes so, and when it is over.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +10,9 @@
 
 namespace vindu::app {
 
-/// The camera of three or more that stands aside of the others the most, and by more than is usual:
-/// its index. Where one was bumped, others may seem to stand aside as well, by less.
-std::optional<std::size_t> camera_aside(const std::vector<CameraHealth>& health);
+/// Whether a camera of three or more stands aside of where the others expect its dots, by more than
+/// is usual.
+bool stands_aside(const CameraHealth& camera);
 
 /// From which share on heads that look larger or smaller than they should tell that something is
 /// wrong. Less is usual, or with helmets of two LEDs what the figure strays by itself.

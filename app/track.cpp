@@ -69,12 +69,13 @@ std::string status_line(const std::optional<PoseSample>& pose, const Tracker& tr
   const auto health = tracker.camera_health();
   const auto states = cameras.states();
   for (std::size_t i = 0; i < health.size(); ++i) {
-    if (health[i].moved) line += fmt::format("  {} was moved!", site.cameras[i].name);
+    if (health[i].moved)
+      line += fmt::format("  {} was moved!", site.cameras[i].name);
+    else if (stands_aside(health[i]))
+      line += fmt::format("  {} stands {:.0f} px aside!", site.cameras[i].name, health[i].aside_px);
     if (health[i].masks)
       line += fmt::format("  {}: {} masked", site.cameras[i].name, health[i].masks);
   }
-  if (const auto i = camera_aside(health))
-    line += fmt::format("  {} stands {:.0f} px aside!", site.cameras[*i].name, health[*i].aside_px);
   if (tracker.nothing_fits()) line += "  the dots fit no head!";
   if (const double px = tracker.disagreement_px(); px >= 1)
     line += fmt::format("  cameras contradict each other by {:.0f} px!", px);
@@ -124,6 +125,14 @@ std::string words_of(const GestureEvent& event, const Site& site) {
   return fmt::format("{}: {} ({:.0f} %)", who, what, 100 * event.confidence);
 }
 
+std::string words_of(const CameraHealth& camera) {
+  if (camera.moved) return ", was MOVED: calibrate it again";
+  if (!stands_aside(camera)) return "";
+  return fmt::format(
+      ", stands {:.0f} px aside of where the others expect its dots: calibrate it again",
+      camera.aside_px);
+}
+
 void print_table(const Tracker& tracker, const Cameras& cameras, const Site& site,
                  const std::string& misfit, Duration length) {
   const TrackerCounts& counts = tracker.counts();
@@ -138,11 +147,7 @@ void print_table(const Tracker& tracker, const Cameras& cameras, const Site& sit
   for (std::size_t i = 0; i < health.size(); ++i)
     fmt::print("  {:<9} {}, {} reflections masked{}\n", site.cameras[i].name,
                health[i].device_time ? "times by its own clock" : "times by arrival",
-               health[i].masks, health[i].moved ? ", was MOVED: calibrate it again" : "");
-  if (const auto i = camera_aside(health))
-    fmt::print(
-        "  {} stands {:.0f} px aside of where the others expect its dots: calibrate it again\n",
-        site.cameras[*i].name, health[*i].aside_px);
+               health[i].masks, words_of(health[i]));
   if (!misfit.empty()) fmt::print("  {}\n", misfit);
   for (const CameraState& camera : cameras.states())
     if (camera.gaps)
