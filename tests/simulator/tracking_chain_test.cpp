@@ -2,7 +2,6 @@
 // wall of assets/walls/tromso.toml and the thesis' method at 60 Hz.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -136,42 +135,6 @@ TEST(TrackingChain, repeats_bit_by_bit_with_one_seed) {
   EXPECT_EQ(first.eyes_in_wall, again.eyes_in_wall);
   EXPECT_EQ(first.counts.reports, again.counts.reports);
   EXPECT_NE(first.eyes_in_wall, other.eyes_in_wall);
-}
-
-/// Two helmets share the four dots of a Wiimote.
-TEST(TrackingChain, tells_two_people_apart_who_walk_before_two_wiimotes) {
-  Site site = tromso();
-  site.heads.push_back(site.heads.front());
-  site.heads[0].name = "anna";
-  site.heads[1].name = "bert";
-  site.heads[1].leds_in_head = {{-0.06, 0.05, -0.05}, {0, -0.02, 0}, {0.12, 0, -0.09}};
-  EmulatedRoomOptions options = with_seed(3);
-  options.people = 2;
-  ManualClock clock;
-  const EmulatedRoom room(site, clock, options);
-  std::vector<WiimoteReader> readers;
-  for (std::size_t i = 0; i < site.cameras.size(); ++i)
-    readers.emplace_back(room.connect(i), static_cast<int>(i));
-  Tracker tracker(site.cameras, site.heads, site.wall.room_from_wall);
-  std::array<int, 2> seen{}, wrong{};
-  constexpr int kFrames = 60 * 60;
-  for (int frame = 0; frame < kFrames; ++frame) {
-    clock.sleep_until(Time{from_seconds(0.1 + frame / 60.0)});
-    for (WiimoteReader& reader : readers)
-      while (const auto report = reader.next(clock.now())) tracker.absorb(*report);
-    tracker.track(clock.now(), clock.now());
-    for (const PoseSample& pose : tracker.poses()) {
-      if (pose.level > TrackingLevel::position) continue;
-      const auto who = static_cast<std::size_t>(pose.object);
-      const Vec3 truth = room.person(who).eye_in_wall(clock.now());
-      ++seen[who];
-      wrong[who] += (tracker.eye_in_wall(pose) - truth).norm() > 0.1;
-    }
-  }
-  for (const std::size_t who : {0u, 1u}) {
-    EXPECT_GT(seen[who], kFrames / 2) << site.heads[who].name;
-    EXPECT_LT(wrong[who], 6) << site.heads[who].name;
-  }
 }
 
 }  // namespace

@@ -52,16 +52,24 @@ class HeadSearch::Contest {
 
   const std::vector<CameraView>& views() const { return views_; }
 
+  /// How many there are at most.
+  std::size_t steps() const {
+    std::size_t steps = pairs_.size() * (1 + options_.candidates_kept) + views_.size();
+    for (const CameraView& view : views_)
+      steps += candidates_from_one(view.dots_px.size(), leds_.size());
+    return steps;
+  }
+
   /// Considers the next rough pose, or makes more of them: those of pairs of cameras, then, where
   /// these are not enough, those of single ones. False: there are no others.
   bool step() {
-    if (const auto pose = poses_()) {
-      enter(*pose);
+    if (const auto poses = poses_()) {
+      for (const Rigid3& pose : *poses) enter(pose);
       return true;
     }
     if (next_pair_ < pairs_.size() && !settled())
       poses_ = of_pair(pairs_[next_pair_++]);
-    else if (next_view_ < views_.size() && (next_view_ > 0 || !sure()))
+    else if (options_.from_one && next_view_ < views_.size() && (next_view_ > 0 || !sure()))
       poses_ = of_one(views_[next_view_++]);
     else
       return false;
@@ -142,7 +150,7 @@ class HeadSearch::Contest {
   RoughPoses of_one(const CameraView& view) const {
     return view.dots_px.size() < 3 ? RoughPoses(none) : candidates_from_one(cameras_, view, leds_);
   }
-  static std::optional<Rigid3> none() { return std::nullopt; }
+  static std::optional<std::vector<Rigid3>> none() { return std::nullopt; }
 
   const CameraModel& camera(const CameraView& view) const {
     return cameras_[static_cast<std::size_t>(view.camera)];
@@ -248,6 +256,8 @@ bool HeadSearch::advance(std::size_t most) {
     }
   return false;
 }
+
+std::size_t HeadSearch::steps() const { return contest_->steps(); }
 
 std::optional<FoundHead> HeadSearch::winner() const { return contest_->winner(); }
 

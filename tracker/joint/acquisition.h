@@ -31,6 +31,7 @@ struct AcquisitionOptions {
   TrackingLevel least_level = TrackingLevel::hybrid;  ///< that the dots alone must reach
   std::optional<Rigid3> believed = {};                ///< where it is tracked: competes as it is
   std::size_t candidates_kept = 16;                   ///< of each pair of cameras, to be fitted
+  bool from_one = true;                               ///< where these do not do, of one camera
 };
 
 /// So many do not agree on a pose by chance.
@@ -55,6 +56,9 @@ class HeadSearch {
   ~HeadSearch();
   HeadSearch(HeadSearch&&) noexcept;
   HeadSearch& operator=(HeadSearch&&) noexcept;
+
+  /// How many there are at most.
+  std::size_t steps() const;
 
   /// Goes so many steps on. True when there are no others.
   bool advance(std::size_t most);

@@ -1,6 +1,7 @@
 #include "tracker/joint/candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
@@ -186,6 +187,23 @@ void add_facing(const CameraModel& camera, const std::vector<cv::Point3d>& leds,
   poses.push_back(camera.room_from_camera() * Rigid3{camera_from_head, middle - leds_mean});
 }
 
+/// Three dots, and the LED that each of them may be.
+struct Three {
+  std::array<std::size_t, 3> dots, leds;
+};
+
+std::vector<Three> threes_of(std::size_t dots, std::size_t leds) {
+  std::vector<Three> threes;
+  for (std::size_t a = 0; a < dots; ++a)
+    for (std::size_t b = a + 1; b < dots; ++b)
+      for (std::size_t c = b + 1; c < dots; ++c)
+        for (std::size_t i = 0; i < leds; ++i)
+          for (std::size_t j = 0; j < leds; ++j)
+            for (std::size_t k = 0; k < leds; ++k)
+              if (i != j && j != k && k != i) threes.push_back({{a, b, c}, {i, j, k}});
+  return threes;
+}
+
 }  // namespace
 
 RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const CameraView& a,
@@ -195,12 +213,12 @@ RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const Came
                                cameras[static_cast<std::size_t>(b.camera)], b);
   auto matches = Matcher(leds_in_head, points, least_leds).matches();
   return [=, points = std::move(points), matches = std::move(matches), left = kept,
-          next = std::size_t{0}]() mutable -> std::optional<Rigid3> {
+          next = std::size_t{0}]() mutable -> std::optional<std::vector<Rigid3>> {
     while (left > 0 && next < matches.size()) {
       const Rigid3 pose = pose_of(matches[next++], leds_in_head, points);
       if (!upright(pose)) continue;
       --left;
-      return pose;
+      return std::vector{pose};
     }
     return std::nullopt;
   };
@@ -209,30 +227,30 @@ RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const Came
 RoughPoses candidates_from_one(std::span<const CameraModel> cameras, const CameraView& view,
                                std::span<const Vec3> leds_in_head) {
   const CameraModel& camera = cameras[static_cast<std::size_t>(view.camera)];
-  const std::size_t dots = std::min(view.dots_px.size(), kDotsForOne), leds = leds_in_head.size();
+  const std::size_t dots = std::min(view.dots_px.size(), kDotsForOne);
   std::vector<cv::Point2d> plane;
   for (std::size_t i = 0; i < dots; ++i) plane.push_back(in_plane(camera, view.dots_px[i]));
-  const auto point = [&](std::size_t led) {
-    const Vec3& x = leds_in_head[led];
-    return cv::Point3d(x.x(), x.y(), x.z());
+  return [&camera, leds_in_head, plane = std::move(plane),
+          threes = threes_of(dots, leds_in_head.size()),
+          next = std::size_t{0}]() mutable -> std::optional<std::vector<Rigid3>> {
+    if (next == threes.size()) return std::nullopt;
+    const Three& three = threes[next++];
+    std::vector<cv::Point3d> leds;
+    std::vector<cv::Point2d> seen;
+    for (const std::size_t led : three.leds)
+      leds.emplace_back(leds_in_head[led].x(), leds_in_head[led].y(), leds_in_head[led].z());
+    for (const std::size_t dot : three.dots) seen.push_back(plane[dot]);
+    std::vector<Rigid3> poses;
+    add_facing(camera, leds, seen, poses);
+    add_p3p(camera, leds, seen, poses);
+    return poses;
   };
-  std::vector<Rigid3> poses;
-  for (std::size_t a = 0; a < dots; ++a)
-    for (std::size_t b = a + 1; b < dots; ++b)
-      for (std::size_t c = b + 1; c < dots; ++c)
-        for (std::size_t i = 0; i < leds; ++i)
-          for (std::size_t j = 0; j < leds; ++j)
-            for (std::size_t k = 0; k < leds; ++k)
-              if (i != j && j != k && k != i) {
-                const std::vector<cv::Point3d> three = {point(i), point(j), point(k)};
-                const std::vector<cv::Point2d> seen = {plane[a], plane[b], plane[c]};
-                add_facing(camera, three, seen, poses);
-                add_p3p(camera, three, seen, poses);
-              }
-  return [poses = std::move(poses), next = std::size_t{0}]() mutable -> std::optional<Rigid3> {
-    if (next == poses.size()) return std::nullopt;
-    return poses[next++];
-  };
+}
+
+std::size_t candidates_from_one(std::size_t dots, std::size_t leds) {
+  const std::size_t used = std::min(dots, kDotsForOne);
+  return used < 3 || leds < 3 ? 0
+                              : used * (used - 1) * (used - 2) / 6 * leds * (leds - 1) * (leds - 2);
 }
 
 }  // namespace vindu

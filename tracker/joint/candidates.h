@@ -5,13 +5,14 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "tracker/joint/acquisition.h"
 
 namespace vindu {
 
-/// Gives one after the other; empty when there are no more.
-using RoughPoses = std::function<std::optional<Rigid3>()>;
+/// Gives those that the next few dots allow, or none; empty when there are no more dots to try.
+using RoughPoses = std::function<std::optional<std::vector<Rigid3>>()>;
 
 /// Upright poses in which at least `least_leds` LEDs stand where rays of the two cameras meet,
 /// those with most first; `kept` at most. Two LEDs leave one angle open: it is that of a head which
@@ -20,8 +21,12 @@ RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const Came
                                 const CameraView& b, std::span<const Vec3> leds_in_head,
                                 std::size_t least_leds, std::size_t kept);
 
-/// Poses of three LEDs in three dots (P3P; OpenCV's), upright ones alone.
+/// Poses of three LEDs in three dots (P3P; OpenCV's), upright ones alone. The cameras must outlive
+/// it as well.
 RoughPoses candidates_from_one(std::span<const CameraModel> cameras, const CameraView& view,
                                std::span<const Vec3> leds_in_head);
+
+/// How often that gives something, for so many dots and LEDs.
+std::size_t candidates_from_one(std::size_t dots, std::size_t leds);
 
 }  // namespace vindu

@@ -130,10 +130,9 @@ void JointMethod::weigh(const Look& look, std::size_t head) {
   const auto leading = look.search.leading();
   if (cameras_.size() < 3 || options_.position_only || !leading) return;
   std::vector<Glimpse> glimpses;
-  const Time common = common_time();
-  for (const std::size_t i : together(common)) {
+  for (const std::size_t i : together(look.common)) {
     const CameraView view =
-        view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - common), 0);
+        view_of(entries_[i], head, std::chrono::abs(entries_[i].seen.captured - look.common), 0);
     glimpses.push_back({view.camera, *leading, view.dots_px, view.sigma_px});
   }
   quorum_.note(cameras_, leds_of_heads_[head], glimpses);

@@ -33,6 +33,10 @@ std::ptrdiff_t dots_of(const FoundHead& found) {
   return dots;
 }
 
+bool sees(const std::vector<int>& led_of_dot) {
+  return std::ranges::any_of(led_of_dot, [](int led) { return led >= 0; });
+}
+
 bool fits_closely(const FoundHead& found) {
   constexpr double kLargest = 2.5;  // squared sigmas for each number that the pose leaves free
   return found.fit.cost <=
@@ -216,6 +220,8 @@ void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t ent
   }
   entries_[entry].births.emplace_back(head, state);
   searches_[head].sure = state.time;
+  for (std::size_t other = 0; other < searches_.size(); ++other)
+    if (other != head) searches_[other].look.reset();  // which may rest on the same dots
   replay_from_ = std::min(replay_from_, entry);
 }
 
@@ -266,12 +272,18 @@ Duration JointMethod::pause_of_looks(std::size_t head) const {
   return kOwnPerLeft * left > own ? kDoubt : left > 0 ? kCheck : kCheckMany;
 }
 
-// One that is tracked is looked for as well; where nothing speaks against it, by one step a
-// frame, so that no frame pays for the whole look.
+/// No frame pays for the whole look. One at a head that nothing speaks against has time; the others
+/// end before their reports are forgotten.
+std::size_t JointMethod::steps_a_frame(const Look& look) {
+  constexpr std::size_t kSteps = 64, kFrames = 6;
+  return look.hurried ? std::max(kSteps, look.search.steps() / kFrames) : 1;
+}
+
+// One that is tracked is looked for as well.
 void JointMethod::look_for(std::size_t head, Time now) {
-  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   if (entries_.empty()) return;
   Search& search = searches_[head];
+  if (search.look && search.look->hurried && entry_of(*search.look)) return;
   const Duration pause = pause_of_looks(head);
   if (now - search.looked < pause) return;
   search.looked = now;
@@ -299,15 +311,16 @@ void JointMethod::look_for(std::size_t head, Time now) {
                                           acquisition_options(head, tracked, slack_px)),
                      .camera = seen.camera,
                      .captured = seen.captured,
+                     .common = common,
                      .tracked = tracked,
                      .slack_px = slack_px,
                      .tolerant = slack_px > disagreement_.sigma_px(),
-                     .steps = pause >= kCheck && !search.rumour ? 1 : kAll};
+                     .hurried = pause < kCheck || search.rumour};
 }
 
 void JointMethod::go_on(std::size_t head) {
   std::optional<Look>& look = searches_[head].look;
-  if (!look || !look->search.advance(look->steps)) return;
+  if (!look || !look->search.advance(steps_a_frame(*look))) return;
   conclude(head);
   look.reset();
 }
@@ -341,25 +354,62 @@ std::ptrdiff_t JointMethod::dots_tracked_by(std::size_t head) const {
   return dots;
 }
 
-/// Whether its dots are nearly as well another's, which nobody tracks: where something is allowed
-/// for what cameras contradict each other, heads are not to be taken for each other.
+/// Whether its dots are rather another's, which nobody tracks; or nearly as well, where something
+/// is allowed for what cameras contradict each other.
 bool JointMethod::may_be_another(const Look& look, std::size_t head, const FoundHead& found) const {
   for (std::size_t other = 0; other < searches_.size(); ++other) {
     if (other == head || newest_heads()[other].state) continue;
     AcquisitionOptions options = acquisition_options(other, {}, look.slack_px);
-    const double clear_by = std::exchange(options.least_margin, 0);
+    const double margin = std::exchange(options.least_margin, 0);
+    options.from_one = false;
     const auto rival = find_head(cameras_, look.search.views(), leds_of_heads_[other], options);
-    if (rival && rival->cost < found.cost + clear_by) return true;
+    if (rival && rival->cost < found.cost + (look.slack_px > 0 ? margin : 0)) return true;
   }
   return false;
+}
+
+/// Of a head that this camera's dots alone are taken for.
+double JointMethod::cost_alone(const CameraView& view, std::size_t head) const {
+  AcquisitionOptions options = acquisition_options(head, {}, 0);
+  options.least_margin = 0;
+  const auto found = find_head(cameras_, std::span(&view, 1), leds_of_heads_[head], options);
+  return found ? found->cost : std::numeric_limits<double>::infinity();
+}
+
+/// Whether the dots of one of the cameras that see it are by themselves another's, which nobody
+/// tracks, and not this one's, by that much of the cost.
+bool JointMethod::pictures_another(const Look& look, std::size_t head, const FoundHead& found,
+                                   double by) const {
+  for (std::size_t v = 0; v < look.search.views().size(); ++v) {
+    CameraView view = look.search.views()[v];
+    if (view.dots_px.size() < 4 || !sees(found.led_of_dot[v])) continue;  // three always fit
+    view.sigma_px = options_.dot_sigma_px;
+    const double own = cost_alone(view, head);
+    for (std::size_t other = 0; other < searches_.size(); ++other)
+      if (other != head && !newest_heads()[other].state && cost_alone(view, other) + by < own)
+        return true;
+  }
+  return false;
+}
+
+/// Whether its dots are another's who is about. Where cameras seem to contradict each other, each
+/// may see somebody else; what one camera sees is compared more closely than pictures that are
+/// apart in time.
+bool JointMethod::is_another(const Look& look, std::size_t head, const FoundHead& found) const {
+  constexpr double kRatherBy = 4;  // two standard deviations of what two free numbers cost
+  if (searches_.size() == 1) return false;
+  if (std::ranges::count_if(found.led_of_dot, sees) == 1)
+    return pictures_another(look, head, found, kRatherBy);
+  if (look.slack_px == 0) return may_be_another(look, head, found);
+  return (!look.tracked && may_be_another(look, head, found)) ||
+         pictures_another(look, head, found, AcquisitionOptions{}.least_margin);
 }
 
 JointMethod::Verdict JointMethod::verdict_on(const Look& look, std::size_t head,
                                              const std::optional<FoundHead>& found) const {
   Verdict verdict{.doubted = !look.tracked || contradicted(head)};
   verdict.fits = found && (options_.position_only || !fits_by_chance(*found)) &&
-                 (!look.tolerant || dots_of(*found) >= kManyDots) &&
-                 (look.slack_px == 0 || look.tracked || !may_be_another(look, head, *found));
+                 (!look.tolerant || dots_of(*found) >= kManyDots);
   if (!verdict.fits) return verdict;
   const bool there = look.tracked && same_pose(found->fit.room_from_head, *look.tracked);
   // Of two cameras that contradict each other, a tolerant look is to find them all.
@@ -367,6 +417,7 @@ JointMethod::Verdict JointMethod::verdict_on(const Look& look, std::size_t head,
   verdict.better = there && !contrary && explains_more(*found, dots_tracked_by(head));
   verdict.known =
       found->believed || (there && !verdict.better && !(look.tolerant && verdict.doubted));
+  verdict.fits = verdict.known || !is_another(look, head, *found);
   return verdict;
 }
 

@@ -95,10 +95,11 @@ class JointMethod {
     HeadSearch search;
     int camera = 0;
     Time captured{};
+    Time common{};                    ///< that the reports' captures are near to
     std::optional<Rigid3> tracked{};  ///< where the head was by then
     double slack_px = 0;              ///< that its dots were given for what cameras contradict
     bool tolerant = false;            ///< that was more than cameras were known to contradict
-    std::size_t steps = 0;            ///< a frame
+    bool hurried = false;  ///< something speaks against where it is tracked, or it is not
   };
 
   /// What a look found, beside what is tracked.
@@ -116,6 +117,7 @@ class JointMethod {
   void forget_old();
   void look_for(std::size_t head, Time now);
   void go_on(std::size_t head);
+  static std::size_t steps_a_frame(const Look& look);
   Verdict verdict_on(const Look& look, std::size_t head,
                      const std::optional<FoundHead>& found) const;
   static bool confirmed(Search& search, const Rigid3& pose, int looks);
@@ -136,6 +138,10 @@ class JointMethod {
                                          double slack_px) const;
   std::ptrdiff_t dots_tracked_by(std::size_t head) const;
   bool may_be_another(const Look& look, std::size_t head, const FoundHead& found) const;
+  double cost_alone(const CameraView& view, std::size_t head) const;
+  bool pictures_another(const Look& look, std::size_t head, const FoundHead& found,
+                        double by) const;
+  bool is_another(const Look& look, std::size_t head, const FoundHead& found) const;
   bool dots_enough(const Look& look, std::size_t head) const;
   Duration pause_of_looks(std::size_t head) const;
   bool contradicted(std::size_t head) const;
