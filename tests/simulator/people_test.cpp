@@ -91,8 +91,10 @@ TEST(People, are_not_taken_for_one_before_cameras_that_contradict_each_other) {
 /// Of whom one camera sees one, another has little of the next.
 TEST(People, are_not_taken_for_each_other) {
   for (const std::uint64_t seed : {11u, 1000014u})
-    for (const Placed& placed : placed_people(cameras_in_a_row(4), kFourLedHelmets, seed))
+    for (const Placed& placed : placed_people(cameras_in_a_row(4), kFourLedHelmets, seed)) {
+      EXPECT_GT(placed.frames, kMinute / 4) << seed;
       EXPECT_LT(placed.wrong, 6) << seed;
+    }
 }
 
 }  // namespace

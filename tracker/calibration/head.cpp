@@ -190,12 +190,12 @@ std::vector<Points> shapes_of(const Crossings& crossings, std::size_t leds) {
   return closest;
 }
 
-/// The shape, as the first moment allows it, that the others fit best.
-Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<Moment>& moments) {
+/// The shape, as one moment allows it, that the others fit best; empty: none does.
+Points choose_shape(std::size_t from, const std::vector<Crossings>& crossings,
+                    const std::vector<Moment>& moments) {
   Points best;
   double least_m = kMisfit_m;
-  const std::size_t leds = moments[0].a_px.size();
-  for (const Points& shape : shapes_of(crossings[0], leds)) {
+  for (const Points& shape : shapes_of(crossings[from], moments[from].a_px.size())) {
     std::vector<double> misfits_m;
     const std::size_t step = std::max<std::size_t>(1, moments.size() / kTrials);
     for (std::size_t i = 0; i < moments.size(); i += step) {
@@ -206,6 +206,15 @@ Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<M
       least_m = misfit_m, best = shape;
   }
   return best;
+}
+
+/// By the first moment; where its rays leave too much open, by later ones.
+Points choose_shape(const std::vector<Crossings>& crossings, const std::vector<Moment>& moments) {
+  constexpr std::size_t kMoments = 6;
+  Points shape;
+  for (std::size_t i = 0; i < kMoments && shape.empty(); ++i)
+    shape = choose_shape(i * moments.size() / kMoments, crossings, moments);
+  return shape;
 }
 
 struct HeadCost {

@@ -37,6 +37,27 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::span<const Camera
 
 }  // namespace
 
+std::ptrdiff_t FoundHead::dots() const {
+  std::ptrdiff_t dots = 0;
+  for (const auto& leds : led_of_dot) dots += std::ssize(leds) - std::ranges::count(leds, -1);
+  return dots;
+}
+
+bool FoundHead::seen_in(std::size_t view) const {
+  return std::ranges::any_of(led_of_dot[view], [](int led) { return led >= 0; });
+}
+
+std::ptrdiff_t FoundHead::cameras() const {
+  std::ptrdiff_t count = 0;
+  for (std::size_t view = 0; view < led_of_dot.size(); ++view) count += seen_in(view);
+  return count;
+}
+
+bool FoundHead::fits_closely() const {
+  constexpr double kLargest = 2.5;  // squared sigmas for each number that the pose leaves free
+  return fit.cost <= kLargest * static_cast<double>(std::max<std::ptrdiff_t>(2 * dots() - 6, 1));
+}
+
 class HeadSearch::Contest {
  public:
   Contest(std::span<const CameraModel> cameras, std::vector<CameraView> views,
@@ -54,7 +75,7 @@ class HeadSearch::Contest {
 
   /// How many there are at most.
   std::size_t steps() const {
-    std::size_t steps = pairs_.size() * (1 + options_.candidates_kept) + views_.size();
+    std::size_t steps = pairs_.size() * (1 + options_.candidates_kept) + views_.size() + 1;
     for (const CameraView& view : views_)
       steps += candidates_from_one(view.dots_px.size(), leds_.size());
     return steps;

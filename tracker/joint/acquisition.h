@@ -44,6 +44,13 @@ struct FoundHead {
   double cost = 0;                           ///< the lower the better
   double margin = 0;                         ///< over the best rival; infinite without one
   bool believed = false;                     ///< what was tracked: there is nothing better
+
+  std::ptrdiff_t dots() const;
+  /// Whether a view has dots of it, and how many do.
+  bool seen_in(std::size_t view) const;
+  std::ptrdiff_t cameras() const;
+  /// Whether they are as far off as noise is.
+  bool fits_closely() const;
 };
 
 /// A look for a head that may be spread over time, in steps: rough poses are made, for two cameras

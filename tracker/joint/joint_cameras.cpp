@@ -2,7 +2,6 @@
 // what they see beside heads.
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "tracker/joint/joint_method.h"
 
@@ -24,13 +23,10 @@ std::vector<MisfitDot> misfit_of(const TimedDots& seen, const Association& assoc
 // Where a head was found by two cameras or more, a further one whose dots are all left over does
 // not stand where it is said to. Of two cameras nobody can say which is wrong.
 void JointMethod::judge_cameras(const std::vector<CameraView>& views, const FoundHead& found) {
-  const auto labelled = [](const std::vector<int>& leds) {
-    return std::ranges::any_of(leds, [](int led) { return led >= 0; });
-  };
-  const auto agree = std::ranges::count_if(found.led_of_dot, labelled);
+  const std::ptrdiff_t agree = found.cameras();
   for (std::size_t v = 0; v < views.size(); ++v) {
     const auto camera = static_cast<std::size_t>(views[v].camera);
-    if (const bool fits = labelled(found.led_of_dot[v]);
+    if (const bool fits = found.seen_in(v);
         views[v].dots_px.size() >= 2 && agree - fits >= 2 && (fits || !quorum_.knows(camera)))
       eyes_[camera].watch.judge(fits);
   }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -27,26 +25,9 @@ constexpr Duration kLost = std::chrono::seconds(2);
 constexpr Duration kPuzzled = std::chrono::seconds(3);  // before cameras that were named are asked
 constexpr double kHeadSpeed_px_s = 250;  // what pictures apart in time add to a dot's sigma
 
-std::ptrdiff_t dots_of(const FoundHead& found) {
-  std::ptrdiff_t dots = 0;
-  for (const auto& leds : found.led_of_dot) dots += std::ssize(leds) - std::ranges::count(leds, -1);
-  return dots;
-}
-
-bool sees(const std::vector<int>& led_of_dot) {
-  return std::ranges::any_of(led_of_dot, [](int led) { return led >= 0; });
-}
-
-bool fits_closely(const FoundHead& found) {
-  constexpr double kLargest = 2.5;  // squared sigmas for each number that the pose leaves free
-  return found.fit.cost <=
-         kLargest * static_cast<double>(std::max<std::ptrdiff_t>(2 * dots_of(found) - 6, 1));
-}
-
 /// Few dots that are not one head's fit some pose as well, but seldom as closely as a head's.
 bool fits_by_chance(const FoundHead& found) {
-  return dots_of(found) < kManyDots && found.level == TrackingLevel::six_dof &&
-         !fits_closely(found);
+  return found.dots() < kManyDots && found.level == TrackingLevel::six_dof && !found.fits_closely();
 }
 
 /// Whether it is of fewer than six dots, beside more than half as many of nobody: where cameras
@@ -54,25 +35,28 @@ bool fits_by_chance(const FoundHead& found) {
 bool few_beside_many(const FoundHead& found) {
   std::ptrdiff_t all = 0;
   for (const auto& leds : found.led_of_dot) all += std::ssize(leds);
-  const std::ptrdiff_t own = dots_of(found);
+  const std::ptrdiff_t own = found.dots();
   return own < kManyDots && 2 * (all - own) > own;
 }
 
 /// Than the head is tracked by. Of cameras of which one stands aside, some dots fit by chance.
 bool explains_more(const FoundHead& found, std::ptrdiff_t dots_tracked_by) {
-  return dots_of(found) >= std::max(kManyDots, dots_tracked_by + 1);
+  return found.dots() >= std::max(kManyDots, dots_tracked_by + 1);
 }
 
 /// The fewer dots agree, the more often they must, unless those of a tracked head agree even less.
 /// One that is tracked there, by fewer dots, may be about to be tracked by them all.
 int looks_needed(const FoundHead& found, bool contradicted, bool better) {
   if (better && !contradicted) return 10;
-  return dots_of(found) >= kManyDots || contradicted ? 2 : 4;
+  return found.dots() >= kManyDots || contradicted ? 2 : 4;
 }
 
-bool same_pose(const Rigid3& a, const Rigid3& b) {
-  return (a.translation - b.translation).norm() < 0.06 &&
-         a.rotation.angularDistance(b.rotation) < radians(20);
+/// Of one head, so long apart: as far as people walk and turn meanwhile.
+bool same_pose(const Rigid3& a, const Rigid3& b, Duration apart) {
+  constexpr double kWalks_m_s = 1, kTurns_rad_s = radians(200);
+  const double apart_s = seconds(apart);
+  return (a.translation - b.translation).norm() < 0.06 + kWalks_m_s * apart_s &&
+         a.rotation.angularDistance(b.rotation) < radians(20) + kTurns_rad_s * apart_s;
 }
 
 }  // namespace
@@ -114,7 +98,7 @@ void JointMethod::absorb(const Observation& observation) {
                 .dots = {}};
   for (const Dot& dot : observation.dots) {
     entry.seen.masked[entry.seen.dots.size()] =
-        eye.statics.masked(raw_px_of(dot)) || eye.sizes.too_large(dot, used.time);
+        eye.statics.masked(raw_px_of(dot)) || (all_tracked_ && eye.sizes.too_large(dot, used.time));
     entry.seen.dots.push_back(dot);
   }
   insert(std::move(entry));
@@ -220,8 +204,6 @@ void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t ent
   }
   entries_[entry].births.emplace_back(head, state);
   searches_[head].sure = state.time;
-  for (std::size_t other = 0; other < searches_.size(); ++other)
-    if (other != head) searches_[other].look.reset();  // which may rest on the same dots
   replay_from_ = std::min(replay_from_, entry);
 }
 
@@ -273,10 +255,13 @@ Duration JointMethod::pause_of_looks(std::size_t head) const {
 }
 
 /// No frame pays for the whole look. One at a head that nothing speaks against has time; the others
-/// end before their reports are forgotten.
-std::size_t JointMethod::steps_a_frame(const Look& look) {
-  constexpr std::size_t kSteps = 64, kFrames = 6;
-  return look.hurried ? std::max(kSteps, look.search.steps() / kFrames) : 1;
+/// end before their reports are forgotten, however long frames are.
+std::size_t JointMethod::steps_of(const Look& look, Duration frame) {
+  constexpr double kLeast = 64, kEndsAfter_s = 0.1;
+  if (!look.hurried) return 1;
+  const auto all = static_cast<double>(look.search.steps());
+  return static_cast<std::size_t>(
+      std::max(kLeast, std::ceil(all * std::min(1.0, seconds(frame) / kEndsAfter_s))));
 }
 
 // One that is tracked is looked for as well.
@@ -318,9 +303,9 @@ void JointMethod::look_for(std::size_t head, Time now) {
                      .hurried = pause < kCheck || search.rumour};
 }
 
-void JointMethod::go_on(std::size_t head) {
+void JointMethod::go_on(std::size_t head, Duration frame) {
   std::optional<Look>& look = searches_[head].look;
-  if (!look || !look->search.advance(steps_a_frame(*look))) return;
+  if (!look || !look->search.advance(steps_of(*look, frame))) return;
   conclude(head);
   look.reset();
 }
@@ -354,77 +339,31 @@ std::ptrdiff_t JointMethod::dots_tracked_by(std::size_t head) const {
   return dots;
 }
 
-/// Whether its dots are rather another's, which nobody tracks; or nearly as well, where something
-/// is allowed for what cameras contradict each other.
-bool JointMethod::may_be_another(const Look& look, std::size_t head, const FoundHead& found) const {
-  for (std::size_t other = 0; other < searches_.size(); ++other) {
-    if (other == head || newest_heads()[other].state) continue;
-    AcquisitionOptions options = acquisition_options(other, {}, look.slack_px);
-    const double margin = std::exchange(options.least_margin, 0);
-    options.from_one = false;
-    const auto rival = find_head(cameras_, look.search.views(), leds_of_heads_[other], options);
-    if (rival && rival->cost < found.cost + (look.slack_px > 0 ? margin : 0)) return true;
-  }
-  return false;
-}
-
-/// Of a head that this camera's dots alone are taken for.
-double JointMethod::cost_alone(const CameraView& view, std::size_t head) const {
-  AcquisitionOptions options = acquisition_options(head, {}, 0);
-  options.least_margin = 0;
-  const auto found = find_head(cameras_, std::span(&view, 1), leds_of_heads_[head], options);
-  return found ? found->cost : std::numeric_limits<double>::infinity();
-}
-
-/// Whether the dots of one of the cameras that see it are by themselves another's, which nobody
-/// tracks, and not this one's, by that much of the cost.
-bool JointMethod::pictures_another(const Look& look, std::size_t head, const FoundHead& found,
-                                   double by) const {
-  for (std::size_t v = 0; v < look.search.views().size(); ++v) {
-    CameraView view = look.search.views()[v];
-    if (view.dots_px.size() < 4 || !sees(found.led_of_dot[v])) continue;  // three always fit
-    view.sigma_px = options_.dot_sigma_px;
-    const double own = cost_alone(view, head);
-    for (std::size_t other = 0; other < searches_.size(); ++other)
-      if (other != head && !newest_heads()[other].state && cost_alone(view, other) + by < own)
-        return true;
-  }
-  return false;
-}
-
-/// Whether its dots are another's who is about. Where cameras seem to contradict each other, each
-/// may see somebody else; what one camera sees is compared more closely than pictures that are
-/// apart in time.
-bool JointMethod::is_another(const Look& look, std::size_t head, const FoundHead& found) const {
-  constexpr double kRatherBy = 4;  // two standard deviations of what two free numbers cost
-  if (searches_.size() == 1) return false;
-  if (std::ranges::count_if(found.led_of_dot, sees) == 1)
-    return pictures_another(look, head, found, kRatherBy);
-  if (look.slack_px == 0) return may_be_another(look, head, found);
-  return (!look.tracked && may_be_another(look, head, found)) ||
-         pictures_another(look, head, found, AcquisitionOptions{}.least_margin);
-}
-
 JointMethod::Verdict JointMethod::verdict_on(const Look& look, std::size_t head,
                                              const std::optional<FoundHead>& found) const {
   Verdict verdict{.doubted = !look.tracked || contradicted(head)};
   verdict.fits = found && (options_.position_only || !fits_by_chance(*found)) &&
-                 (!look.tolerant || dots_of(*found) >= kManyDots);
+                 (!look.tolerant || found->dots() >= kManyDots);
   if (!verdict.fits) return verdict;
-  const bool there = look.tracked && same_pose(found->fit.room_from_head, *look.tracked);
+  const bool there = look.tracked && same_pose(found->fit.room_from_head, *look.tracked, {});
   // Of two cameras that contradict each other, a tolerant look is to find them all.
-  const bool contrary = verdict.doubted && may_contradict() && !fits_closely(*found);
+  const bool contrary = verdict.doubted && may_contradict() && !found->fits_closely();
   verdict.better = there && !contrary && explains_more(*found, dots_tracked_by(head));
   verdict.known =
       found->believed || (there && !verdict.better && !(look.tolerant && verdict.doubted));
-  verdict.fits = verdict.known || !is_another(look, head, *found);
+  verdict.fits =
+      verdict.known || !(has_been_taken(look, head, *found) || is_another(look, head, *found));
   return verdict;
 }
 
 // Looks in a row that find a head in one place are right: false dots do not repeat themselves.
-bool JointMethod::confirmed(Search& search, const Rigid3& pose, int looks) {
-  const bool again = search.rumour && same_pose(pose, *search.rumour);
-  search.rumour = pose;
+bool JointMethod::confirmed(Search& search, const Rigid3& pose, Time captured, int looks) {
+  constexpr Duration kUsual = Milliseconds(33);  // from one look to the next
+  const bool again =
+      search.rumour &&
+      same_pose(pose, search.rumour->pose,
+                std::max(Duration::zero(), captured - search.rumour->captured - kUsual));
+  search.rumour = {pose, captured};
   search.confirmed = again ? search.confirmed + 1 : 1;
   return search.confirmed >= looks;
 }
@@ -444,7 +383,7 @@ void JointMethod::conclude(std::size_t head) {
     return search.rumour.reset();
   }
   const int looks = looks_needed(*found, look.tracked && verdict.doubted, verdict.better);
-  if (!confirmed(search, found->fit.room_from_head, looks)) return;
+  if (!confirmed(search, found->fit.room_from_head, look.captured, looks)) return;
   const auto newest = entry_of(look);
   if (!newest) return;
   if (verdict.doubted && few_beside_many(*found))
@@ -456,14 +395,16 @@ void JointMethod::conclude(std::size_t head) {
 }
 
 void JointMethod::update(Time now) {
-  now_ = now;
+  const Duration frame = now - std::exchange(now_, now);
   replay();
   for (std::size_t head = 0; head < searches_.size(); ++head) {
     look_for(head, now);
-    go_on(head);
+    go_on(head, frame);
     replay();  // the next head is not found of the dots that this one was found of
   }
   weigh_tracked(now);
+  all_tracked_ = std::ranges::all_of(
+      newest_heads(), [](const HeadTrack& track) { return track.state.has_value(); });
   if (!puzzled()) puzzled_since_ = now;
   if (now - puzzled_since_ > kPuzzled) quorum_.forgive();
   for (std::size_t head = 0; head < searches_.size(); ++head) {
@@ -475,6 +416,7 @@ void JointMethod::update(Time now) {
 }
 
 std::optional<PoseSample> JointMethod::pose(std::size_t head, Time photon) const {
+  assert(replay_from_ == entries_.size());
   const HeadTrack& last = searches_[head].last;
   if (!last.state) return std::nullopt;
   const Duration unseen = std::min(photon, now_ + AheadOptions{}.limit) - last.seen;

@@ -51,9 +51,9 @@ class JointMethod {
   /// Arrivals of one camera must not go back. Cheap: the work is done when somebody asks.
   void absorb(const Observation& observation);
 
-  /// Where head number `head` will be at `photon`, as known from what has been absorbed; the
-  /// capture time is that of the newest dot it rests on. Level held or lost when no dot has been
-  /// seen for long. Empty until the head was found for the first time.
+  /// Where head number `head` will be at `photon`, as known after an update, since which nothing
+  /// was absorbed; the capture time is that of the newest dot it rests on. Level held or lost when
+  /// no dot has been seen for long. Empty until the head was found for the first time.
   std::optional<PoseSample> pose(std::size_t head, Time photon) const;
 
   /// Takes in what was absorbed, looks for heads that are lost, checks the others.
@@ -116,11 +116,11 @@ class JointMethod {
   void judge(Entry& entry);
   void forget_old();
   void look_for(std::size_t head, Time now);
-  void go_on(std::size_t head);
-  static std::size_t steps_a_frame(const Look& look);
+  void go_on(std::size_t head, Duration frame);
+  static std::size_t steps_of(const Look& look, Duration frame);
   Verdict verdict_on(const Look& look, std::size_t head,
                      const std::optional<FoundHead>& found) const;
-  static bool confirmed(Search& search, const Rigid3& pose, int looks);
+  static bool confirmed(Search& search, const Rigid3& pose, Time captured, int looks);
   void conclude(std::size_t head);
   std::optional<std::size_t> entry_of(const Look& look) const;
   Time common_time() const;
@@ -141,6 +141,7 @@ class JointMethod {
   double cost_alone(const CameraView& view, std::size_t head) const;
   bool pictures_another(const Look& look, std::size_t head, const FoundHead& found,
                         double by) const;
+  bool has_been_taken(const Look& look, std::size_t head, const FoundHead& found) const;
   bool is_another(const Look& look, std::size_t head, const FoundHead& found) const;
   bool dots_enough(const Look& look, std::size_t head) const;
   Duration pause_of_looks(std::size_t head) const;
@@ -163,15 +164,20 @@ class JointMethod {
   Quorum quorum_;              // of more
   Time weighed_{};             // when it was asked last
   Time puzzled_since_{};
+  bool all_tracked_ = false;   // else somebody may be much nearer than the others
   std::deque<Entry> entries_;  // in order of capture
   std::size_t replay_from_ = 0;
   Time now_{};                   // of the last update
   std::vector<HeadTrack> base_;  // before the first entry
+  struct Rumour {                // where a look found it
+    Rigid3 pose;
+    Time captured{};
+  };
   struct Search {
     std::optional<Look> look{};      // that has begun
     Time looked{};                   // when the last one began
     Time seen = Time::min();         // capture of the newest report of that look
-    std::optional<Rigid3> rumour{};  // where the last look found it, unless it is tracked there
+    std::optional<Rumour> rumour{};  // of the last look, unless it is tracked there
     int confirmed = 0;               // looks in a row that found it there
     FailedLooks failed{};
     HeadTrack last{};  // that was tracked

@@ -28,6 +28,7 @@ TEST_F(JointBumpedTest, names_the_one_of_three_cameras_that_was_bumped) {
   EXPECT_LT(error_m(method, 0, Time{milliseconds(8990)}, walking(8.99)), 0.02);
 }
 
+/// A quarter of a degree (5 px), up and down: no pose of a head fits both cameras' dots.
 TEST_F(JointBumpedTest, follows_a_head_though_two_cameras_contradict_each_other_and_says_so) {
   const std::vector<CameraConfig> calibrated = configs_;
   for (const double px : {0.0, 5.0, 15.0, 40.0}) {
@@ -47,6 +48,7 @@ TEST_F(JointBumpedTest, follows_a_head_though_two_cameras_contradict_each_other_
   }
 }
 
+/// Of two helmets, whose layouts differ, one is there.
 TEST_F(JointBumpedTest, takes_no_head_for_another_though_two_cameras_contradict_each_other) {
   const std::vector<CameraConfig> calibrated = configs_;
   std::vector<HeadConfig> both(2);
@@ -100,6 +102,7 @@ TEST_F(JointBumpedTest, takes_a_camera_that_is_bumped_and_put_right_again_as_it_
   EXPECT_LT(error_m(method, 0, Time{milliseconds(49990)}, walking(49.99)), 0.006);
 }
 
+/// To the side their rays meet all the same, in a wrong place, where the head looks too small.
 TEST_F(JointBumpedTest, knows_by_how_much_a_place_is_off_that_heads_look_too_small_for) {
   const std::vector<CameraConfig> calibrated = configs_;
   for (const double px : {8.0, 15.0, -15.0}) {
@@ -116,6 +119,7 @@ TEST_F(JointBumpedTest, knows_by_how_much_a_place_is_off_that_heads_look_too_sma
   }
 }
 
+/// The rotation is given there, not found: a head that turns looks narrower.
 TEST_F(JointBumpedTest, finds_no_contradiction_where_heads_are_taken_to_face_the_wall) {
   JointMethod method(configs_, heads_, {.position_only = true});
   feed(method, 0, 20, [](double t) {
@@ -128,6 +132,7 @@ TEST_F(JointBumpedTest, finds_no_contradiction_where_heads_are_taken_to_face_the
   EXPECT_FALSE(method.nothing_fits());
 }
 
+/// Two of three are right.
 TEST_F(JointBumpedTest, follows_the_two_of_three_cameras_that_agree_and_knows_which_stands_aside) {
   add_middle_camera();
   const std::vector<CameraConfig> calibrated = configs_;
@@ -157,6 +162,7 @@ TEST_F(JointBumpedTest, follows_the_two_of_three_cameras_that_agree_and_knows_wh
     }
 }
 
+/// To the side all rays go on meeting, somewhere else.
 TEST_F(JointBumpedTest, goes_on_with_the_two_that_agree_when_a_third_is_bumped_to_the_side) {
   add_middle_camera();
   const std::vector<CameraConfig> calibrated = configs_;

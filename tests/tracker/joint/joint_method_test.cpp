@@ -47,6 +47,20 @@ TEST_F(JointMethodTest, gives_the_same_for_late_reports_as_for_timely_ones) {
   EXPECT_LT((timely.room_from_head.translation - late.room_from_head.translation).norm(), 1e-4);
 }
 
+/// Its own LEDs are more; fewer that are not seen speak for nobody.
+TEST_F(JointMethodTest, takes_no_helmet_for_one_of_fewer_leds_where_one_is_hidden) {
+  heads_.resize(2);
+  heads_[0].leds_in_head = kFourLeds;
+  heads_[1].leds_in_head = kThreeLeds;
+  JointMethod method(configs_, heads_);
+  heads_ = {heads_[0]};
+  heads_[0].leds_in_head.pop_back();
+  feed(method, 0, 4, [](double t) { return std::vector{walking(t)}; });
+  EXPECT_LT(error_m(method, 0, Time{milliseconds(3990)}, walking(3.99)), 0.01);
+  const auto other = method.pose(1, Time{milliseconds(3990)});
+  EXPECT_TRUE(!other || other->level >= TrackingLevel::held);
+}
+
 TEST_F(JointMethodTest, holds_a_head_that_is_gone_and_finds_it_again_elsewhere) {
   JointMethod method(configs_, heads_);
   feed(method, 0, 1, [](double) { return std::vector{walking(0)}; });
@@ -139,12 +153,6 @@ TEST_F(JointMethodTest, knows_the_calibrated_background_from_the_first_report_on
   for (const CameraHealth& health : method.health()) EXPECT_EQ(health.masks, 2u);
 }
 
-/// A quarter of a degree (5 px), up and down: no pose of a head fits both cameras' dots.
-/// Of two helmets, whose layouts differ, one is there.
-/// To the side their rays meet all the same, in a wrong place, where the head looks too small.
-/// The rotation is given there, not found: a head that turns looks narrower.
-/// Two of three are right.
-/// To the side all rays go on meeting, somewhere else.
 /// Of which three LEDs fit several poses, one of them facing the wall.
 TEST_F(JointMethodTest,
        follows_by_one_camera_whoever_watches_the_wall_and_vouches_for_no_distance) {
@@ -166,6 +174,21 @@ TEST_F(JointMethodTest,
     }
     EXPECT_EQ(found, 1800);
     EXPECT_LT(worst_m, 0.08);
+  }
+}
+
+/// A look is spread over frames, and its reports are forgotten after some of them.
+TEST_F(JointMethodTest, finds_a_head_however_long_frames_are) {
+  configs_.pop_back();
+  heads_[0].leds_in_head = kFourLeds;
+  for (const int frame : {1, 3, 10, 30}) {  // of ten milliseconds
+    JointMethod method(configs_, heads_);
+    for (int k = 0; k < 300; ++k) {
+      const Time time{milliseconds(10 * k)};
+      method.absorb(seen_by(0, {walking(0.01 * k)}, time));
+      if ((k + 1) % frame == 0) method.update(time);
+    }
+    EXPECT_LT(error_m(method, 0, Time{milliseconds(2990)}, walking(2.99)), 0.1) << frame;
   }
 }
 
