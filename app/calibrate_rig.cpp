@@ -255,7 +255,8 @@ int extrinsics(const RigCommand& command) {
                          .seconds = 3,
                          .request = "Put the rig at its place, its LEDs towards the cameras",
                          .body = [&](const Site&) {
-                           return bare_leds(grid.leds_in_rig(), [rig](Time) { return rig; });
+                           return bare_leds(grid.leds_in_rig(),
+                                            [pose = rig](Time) { return pose; });
                          }};
   return calibrate(command.common, site, wish,
                    [&](const Calibrating& run) { find_places(command, grid, rig, run); });

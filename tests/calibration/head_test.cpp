@@ -94,7 +94,8 @@ TEST(Head, OfMoreLedsThanTwoCamerasTellOfIsRefused) {
   HeadOptions five;
   five.leds = 5;
   EXPECT_THAT([&] { calibrate_head({}, site.cameras, site.wall.room_from_wall, {}, five); },
-              ThrowsMessage<Error>(HasSubstr("no two cameras tell of more than 4 dots")));
+              ::testing::ThrowsMessage<Error>(
+                  ::testing::HasSubstr("no two cameras tell of more than 4 dots")));
 }
 
 TEST(Head, OfAWearerWhoDoesNotStandStillIsRefused) {

@@ -102,7 +102,7 @@ std::vector<LedSighting> sightings_of(const CameraModel& camera, const Glimpse& 
     const auto there_px = camera.project(camera_from_moved * led);
     if (!then_px || !there_px) return {};
     expected_px.push_back(*then_px);
-    moved_px.push_back(*there_px - *then_px);
+    moved_px.emplace_back(*there_px - *then_px);
   }
   const std::vector<int> labels = labels_aside(expected_px, glimpse.dots_px);
   const double sigma_px = std::hypot(glimpse.sigma_px, kDotSigma_px);
