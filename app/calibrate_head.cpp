@@ -69,6 +69,15 @@ std::string list_of(const std::vector<Vec3>& leds_m) {
   return list;
 }
 
+/// As helmets are measured: the origin at the rearmost LED.
+HeadConfig from_rearmost(HeadConfig head) {
+  const auto behind = [](const Vec3& led) { return led.z(); };
+  const Vec3 rear = *std::ranges::max_element(head.leds_in_head, {}, behind);
+  for (Vec3& led : head.leds_in_head) led -= rear;
+  head.eye_in_head -= rear;
+  return head;
+}
+
 /// How far off the worst LED is, each from the one found nearest to it.
 double worst_led_mm(const HeadConfig& found, const HeadConfig& truth) {
   double worst_mm = 0;
@@ -176,7 +185,8 @@ int calibrate_the_head(const HeadCommand& command) {
         calibrate_head(run.capture, run.site.cameras, run.site.wall.room_from_wall, known,
                        head_options(command, leds, run, wearer));
     expect_eye_at_the_helmet(result.head.eye_in_head);
-    tell(result, run.truth ? &wearer.head : nullptr, command.common.json);
+    const HeadConfig truth = from_rearmost(wearer.head);
+    tell(result, run.truth ? &truth : nullptr, command.common.json);
     draw(command.common, panels_of(run));
     HeadCalibration found;
     found.head = result.head;

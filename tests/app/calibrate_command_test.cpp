@@ -183,6 +183,18 @@ TEST_F(CalibrateCommand, OfAHeadWritesItsLedsAndWarnsOfSymmetry) {
   EXPECT_THAT(bytes_of(path("calibration/heads.toml")), HasSubstr("[[calibrated_head]]"));
 }
 
+// The result has its origin there; the wall file's helmet has not.
+TEST_F(CalibrateCommand, OfAHeadComparesItWithTheTruthFromItsRearmostLed) {
+  std::string wall = bytes_of(wall_);
+  const std::size_t from = wall.find("leds_m = [");
+  wall.replace(from, wall.find('\n', from) - from,
+               "leds_m = [[-0.12, 0, -0.05], [0, 0.06, 0.02], [0.07, 0, -0.09]]");
+  const ProcessResult result = vindu({"calibrate", "head", "--wall", write("up.toml", wall)});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out,
+              ::testing::ContainsRegex("LEDs at most [0-4]\\.. mm off, eye [0-4]\\.. mm"));
+}
+
 TEST_F(CalibrateCommand, OfAHeadRefusesAnotherNumberOfLedsThanEmulatedCamerasSee) {
   const ProcessResult result = vindu({"calibrate", "head", "--wall", wall_, "--leds", "4"});
   EXPECT_EQ(result.exit_code, 1);
