@@ -43,11 +43,12 @@ using Views = std::vector<std::vector<WandView>>;
 Views find_views(const Capture& capture, const std::vector<CameraConfig>& cameras,
                  const std::vector<double>& leds_m) {
   const auto tracks = moving_dots(capture, cameras);
-  Views views;
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
+  for (std::size_t i = 0; i < tracks.size(); ++i)
     if (tracks[i].pictures.empty())
       throw Error({"sent nothing", "camera " + cameras[i].name,
                    "switch it on (vindu wiimote list), or take it out of the wall file"});
+  Views views;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
     views.push_back(find_wand(tracks[i], static_cast<int>(i), leds_m));
     if (views[i].empty())
       throw Error({"never saw the wand, its LEDs and nothing else like it",
