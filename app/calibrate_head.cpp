@@ -69,15 +69,6 @@ std::string list_of(const std::vector<Vec3>& leds_m) {
   return list;
 }
 
-/// As helmets are measured: the origin at the rearmost LED.
-HeadConfig from_rearmost(HeadConfig head) {
-  const auto behind = [](const Vec3& led) { return led.z(); };
-  const Vec3 rear = *std::ranges::max_element(head.leds_in_head, {}, behind);
-  for (Vec3& led : head.leds_in_head) led -= rear;
-  head.eye_in_head -= rear;
-  return head;
-}
-
 /// How far off the worst LED is, each from the one found nearest to it.
 double worst_led_mm(const HeadConfig& found, const HeadConfig& truth) {
   double worst_mm = 0;
@@ -212,7 +203,8 @@ void add_calibrate_head(CLI::App& calibrate, Action& chosen) {
       ->check(between(0.5, 60.0));
   add_picture_option(*app, command->common, "Where in its view each camera saw the helmet");
   add_vec3(*app, "--eye-at", command->eye_in_wall,
-           "Where the point between the eyes is meanwhile, in wall (default: eye_m stays)");
+           "Where the point between the eyes is meanwhile, in wall (default: where it was from the "
+           "rearmost LED)");
   app->footer(
       "\nExamples:\n"
       "  vindu calibrate head --wall wall.toml --eye-at 0,0.1,2\n"

@@ -47,6 +47,19 @@ TEST(Head, FindsTheLedsAndTheEye) {
   EXPECT_LT(result.rms_px, 1);
 }
 
+/// The wall file's helmet has its origin 60 mm below the rearmost LED.
+TEST(Head, KeepsAnEyeThatIsNotMeasuredWhereItWasFromTheRearmostLed) {
+  HeadConfig known;
+  known.leds_in_head = {{-0.10, 0.07, -0.08}, {0, 0.06, 0}, {0.08, 0.04, -0.06}};
+  known.eye_in_head = {0, -0.05, -0.18};
+  EmulatedCapture wanted{.site = true_site({{-1, 2.3, 5}, {1, 2.3, 5}}), .seconds = 40};
+  wanted.body = bare_leds(known.leds_in_head, still_then_moving({0.05, 1.62, 2.0}));
+  const HeadResult result = calibrate_head(capture_of(wanted), wanted.site.cameras,
+                                           wanted.site.wall.room_from_wall, known, {});
+  EXPECT_LT((result.head.eye_in_head - Vec3(0, -0.11, -0.18)).norm(), 1e-9);
+  EXPECT_LT((result.head.leds_in_head[1]).norm(), 1e-9);
+}
+
 /// Dots of bare LEDs as two video cameras see them, in no order, 60 times a second.
 Capture of_video_cameras(const std::vector<CameraConfig>& cameras, const std::vector<Vec3>& leds,
                          const BodyMotion& room_from_head) {

@@ -337,7 +337,18 @@ std::vector<Moment> thinned(std::vector<Moment> moments, double still_s, int mos
   return chosen;
 }
 
+Vec3 rearmost(const Points& leds) {
+  return *std::ranges::max_element(leds, {}, [](const Vec3& led) { return led.z(); });
+}
+
 }  // namespace
+
+HeadConfig from_rearmost(HeadConfig head) {
+  const Vec3 rear = rearmost(head.leds_in_head);
+  for (Vec3& led : head.leds_in_head) led -= rear;
+  head.eye_in_head -= rear;
+  return head;
+}
 
 void expect_measurable(int leds, const HeadConfig& head, std::span<const CameraConfig> cameras) {
   const auto count = static_cast<std::size_t>(leds);
@@ -384,8 +395,8 @@ HeadResult calibrate_head(const Capture& capture, const std::vector<CameraConfig
   result.moments = static_cast<int>(good.size());
   Points in_wall = still_in_wall(good, shape, inverse(room_from_wall), options.still_s);
   std::ranges::sort(in_wall, {}, [](const Vec3& led) { return led.x(); });
-  const Vec3 rear = *std::ranges::max_element(in_wall, {}, [](const Vec3& led) { return led.z(); });
-  result.head = head;
+  const Vec3 rear = rearmost(in_wall);
+  result.head = from_rearmost(head);
   result.head.leds_in_head.clear();
   for (const Vec3& led : in_wall) result.head.leds_in_head.emplace_back(led - rear);
   if (options.eye_in_room)

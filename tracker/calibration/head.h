@@ -14,7 +14,8 @@ struct HeadOptions {
   int leds = 3;        ///< of the helmet
   double still_s = 2;  ///< at the beginning: facing the wall, upright
   int max_moments = 400;
-  /// Where the eye is while the wearer stands still; empty: eye_in_head stays as it was.
+  /// Where the eye is while the wearer stands still; empty: it stays as it was from the rearmost
+  /// LED.
   std::optional<Vec3> eye_in_room;
 };
 
@@ -24,6 +25,9 @@ struct HeadResult {
   double led_sigma_mm = 0;  ///< of an LED's place: what its solutions scatter over the moments
   int moments = 0;
 };
+
+/// The same helmet with its origin at the rearmost LED, as helmets are measured.
+HeadConfig from_rearmost(HeadConfig head);
 
 /// Throws Error for fewer than two cameras, and for fewer than three LEDs, more than eight, or more
 /// than two cameras tell of at once.
