@@ -147,6 +147,27 @@ TEST_F(JointMethodTest, takes_no_dot_for_an_led_that_is_far_larger_than_they_wer
   EXPECT_NE(after_reflection(4), after_reflection(0));
 }
 
+/// Somebody who comes nearer to the cameras than all others are has larger dots.
+TEST_F(JointMethodTest, finds_somebody_whose_dots_are_far_larger_than_those_of_others) {
+  heads_.resize(2);
+  heads_[1].leds_in_head = kFourLeds;
+  const Rigid3 near{Quat::Identity(), {-0.5, 1.65, 2}};
+  JointMethod method(configs_, heads_);
+  for (int k = 0; k < 300; ++k) {
+    const Time time{milliseconds(10 * k)};
+    Rigid3 far = walking(0.01 * k);
+    far.translation.x() = 0.4 + 0.3 * far.translation.x();
+    for (const int camera : {0, 1}) {
+      Observation seen = seen_by(camera, {far, near}, time);
+      if (k < 100) seen = seen_by(camera, {far}, time);
+      for (std::size_t i = 3; i < seen.dots.size(); ++i) seen.dots[i].size = 12;
+      method.absorb(seen);
+    }
+    method.update(time);
+  }
+  EXPECT_LT(error_m(method, 1, Time{milliseconds(2990)}, near), 0.01);
+}
+
 TEST_F(JointMethodTest, knows_the_calibrated_background_from_the_first_report_on) {
   for (CameraConfig& camera : configs_) camera.masks_px = {{512, 600}, {100, 100}};
   JointMethod method(configs_, heads_);
