@@ -351,8 +351,7 @@ JointMethod::Verdict JointMethod::verdict_on(const Look& look, std::size_t head,
   verdict.better = there && !contrary && explains_more(*found, dots_tracked_by(head));
   verdict.known =
       found->believed || (there && !verdict.better && !(look.tolerant && verdict.doubted));
-  verdict.fits =
-      verdict.known || !(has_been_taken(look, head, *found) || is_another(look, head, *found));
+  verdict.fits = verdict.known || !is_another(look, head, *found);
   return verdict;
 }
 

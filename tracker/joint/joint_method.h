@@ -141,7 +141,6 @@ class JointMethod {
   double cost_alone(const CameraView& view, std::size_t head) const;
   bool pictures_another(const Look& look, std::size_t head, const FoundHead& found,
                         double by) const;
-  bool has_been_taken(const Look& look, std::size_t head, const FoundHead& found) const;
   bool is_another(const Look& look, std::size_t head, const FoundHead& found) const;
   bool dots_enough(const Look& look, std::size_t head) const;
   Duration pause_of_looks(std::size_t head) const;

@@ -16,21 +16,6 @@ double cost_of_dots(const FoundHead& found, std::size_t leds) {
 
 }  // namespace
 
-/// Whether others were found of its dots since the look began.
-bool JointMethod::has_been_taken(const Look& look, std::size_t head, const FoundHead& found) const {
-  const auto& views = look.search.views();
-  for (const std::size_t i : together(look.common))
-    for (const AcceptedDot& accepted : entries_[i].association.accepted) {
-      const Vec2 raw_px = raw_px_of(entries_[i].seen.dots[accepted.dot]);
-      for (std::size_t v = 0; v < views.size(); ++v)
-        for (std::size_t dot = 0; dot < views[v].dots_px.size(); ++dot)
-          if (accepted.head != static_cast<int>(head) && found.led_of_dot[v][dot] >= 0 &&
-              views[v].camera == entries_[i].seen.camera && views[v].dots_px[dot] == raw_px)
-            return true;
-    }
-  return false;
-}
-
 /// Whether its dots are rather another's, which nobody tracks; or nearly as well, where something
 /// is allowed for what cameras contradict each other.
 bool JointMethod::may_be_another(const Look& look, std::size_t head, const FoundHead& found) const {
@@ -48,15 +33,14 @@ bool JointMethod::may_be_another(const Look& look, std::size_t head, const Found
   return false;
 }
 
-/// Of this camera's dots alone, taken for a head's; of none where they do not fit it closely.
+/// Of this camera's dots alone, taken for a head's; where they do not fit it, for nobody's.
 double JointMethod::cost_alone(const CameraView& view, std::size_t head) const {
   AcquisitionOptions options = acquisition_options(head, {}, 0);
   options.least_margin = 0;
   const std::vector<Vec3>& leds = leds_of_heads_[head];
   const auto found = find_head(cameras_, std::span(&view, 1), leds, options);
-  return found && found->fits_closely()
-             ? cost_of_dots(*found, leds.size())
-             : options.false_dot_cost * static_cast<double>(view.dots_px.size());
+  return found ? cost_of_dots(*found, leds.size())
+               : options.false_dot_cost * static_cast<double>(view.dots_px.size());
 }
 
 /// Whether the dots of one of the cameras that see it are by themselves another's, which nobody
