@@ -1,13 +1,14 @@
 // What finding the dots of a picture costs, beside OpenCV's ways to do the same:
 // SimpleBlobDetector, and connectedComponentsWithStats with our centroids on its boxes. The ratios
 // are counters of the same run, in which all take turns; how far each one's dots lie from the truth
-// is shown. The picture that was timed is kept as blob_bench_WIDTH.png.
+// is shown. The picture that was timed is kept as out/blob_bench_WIDTH.png.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -43,7 +44,8 @@ struct Picture {
     for (int y = 0; y < height_px; ++y)
       for (int x = 0; x < width_px; ++x) light.at<float>(y, x) += noise(random);
     light.convertTo(grey, CV_8U);
-    cv::imwrite("blob_bench_" + std::to_string(width_px) + ".png", grey);
+    std::filesystem::create_directories("out");
+    cv::imwrite("out/blob_bench_" + std::to_string(width_px) + ".png", grey);
   }
 };
 
