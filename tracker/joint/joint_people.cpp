@@ -26,7 +26,7 @@ bool JointMethod::may_be_another(const Look& look, std::size_t head, const Found
     AcquisitionOptions options = acquisition_options(other, {}, look.slack_px);
     const double by = look.slack_px > 0 ? options.least_margin : 0;
     options.least_margin = 0;
-    options.from_one = false;
+    options.from_one = false;  // these are not needed, and cost a fifth of the longest frames
     const auto rival = find_head(cameras_, look.search.views(), leds, options);
     if (rival && cost_of_dots(*rival, leds.size()) < own + by) return true;
   }
@@ -49,7 +49,7 @@ bool JointMethod::pictures_another(const Look& look, std::size_t head, const Fou
                                    double by) const {
   for (std::size_t v = 0; v < look.search.views().size(); ++v) {
     CameraView view = look.search.views()[v];
-    if (view.dots_px.size() < 4 || !found.seen_in(v)) continue;  // three always fit
+    if (!found.seen_in(v)) continue;
     view.sigma_px = options_.dot_sigma_px;
     const double own = cost_alone(view, head);
     for (std::size_t other = 0; other < searches_.size(); ++other)
@@ -64,7 +64,7 @@ bool JointMethod::pictures_another(const Look& look, std::size_t head, const Fou
 /// apart in time.
 bool JointMethod::is_another(const Look& look, std::size_t head, const FoundHead& found) const {
   constexpr double kRatherBy = 4;  // two standard deviations of what two free numbers cost
-  if (searches_.size() == 1 || options_.position_only) return false;
+  if (searches_.size() == 1) return false;
   if (found.cameras() == 1) return pictures_another(look, head, found, kRatherBy);
   if (look.slack_px == 0) return may_be_another(look, head, found);
   return (!look.tracked && may_be_another(look, head, found)) ||
