@@ -158,14 +158,15 @@ std::vector<AccuracyTarget> targets_of(const Accuracy& accuracy) {
                if (!is_usual(row, Link::bursts)) return std::nullopt;
                return row.over_fixed();
              });
-  // Heads that rest in between: docs/decisions/0017.
   for (const auto& [link, limit] : {std::pair(Link::bursts, 0.2), std::pair(Link::loss, 0.25)})
-    add_target(targets, fmt::format("sways 0.57 m/s, 30 ms, {}: over thesis", vindu::name_of(link)),
-               limit, accuracy.moving, [&, link = link](const MovingRow& row) -> Ratio {
-                 if (!is_usual(row, link) || row.options.moves != HeadMoves::sways)
-                   return std::nullopt;
-                 return row.over_thesis();
-               });
+    for (const auto moves : {HeadMoves::sways, HeadMoves::walks, HeadMoves::starts_and_stops})
+      add_target(targets,
+                 fmt::format("{} 0.57 m/s, 30 ms, {}: over thesis", vindu::name_of(moves),
+                             vindu::name_of(link)),
+                 limit, accuracy.moving, [&, link = link](const MovingRow& row) -> Ratio {
+                   if (!is_usual(row, link) || row.options.moves != moves) return std::nullopt;
+                   return row.over_thesis();
+                 });
   return targets;
 }
 
