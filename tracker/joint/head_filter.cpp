@@ -50,15 +50,13 @@ Course course_of(double dt_s, Duration damping) {
           kManoeuvre_s * (1 - left), left};
 }
 
-/// Rows of position, velocity and acceleration, each three, moved on.
-template <class Rows>
-void carry(Rows&& rows, const Course& course) {
-  rows.template topRows<3>() += course.way_by_velocity_s * rows.template middleRows<3>(3) +
-                                course.way_by_acceleration_s2 * rows.template bottomRows<3>();
-  rows.template middleRows<3>(3) =
-      course.velocity_left * rows.template middleRows<3>(3) +
-      course.velocity_by_acceleration_s * rows.template bottomRows<3>();
-  rows.template bottomRows<3>() *= course.acceleration_left;
+/// Columns of position, velocity and acceleration, each three, moved on.
+void carry(Mat18& covariance, int at, const Course& course) {
+  auto place = covariance.middleCols<3>(at), velocity = covariance.middleCols<3>(at + 3),
+       acceleration = covariance.middleCols<3>(at + 6);
+  place += course.way_by_velocity_s * velocity + course.way_by_acceleration_s2 * acceleration;
+  velocity = course.velocity_left * velocity + course.velocity_by_acceleration_s * acceleration;
+  acceleration *= course.acceleration_left;
 }
 
 // Of white jerk over dt (Bar-Shalom, Li & Kirubarajan, "Estimation with applications", 6.2.3).
@@ -98,10 +96,11 @@ template <int N>
 Correction take_in(HeadState& state, const Eigen::Matrix<double, 18, N>& spread,
                    const Eigen::Matrix<double, N, N>& expected,
                    const Eigen::Matrix<double, N, 1>& surprise) {
-  const Eigen::LLT<Eigen::Matrix<double, N, N>> root(expected);
-  const Eigen::Matrix<double, 18, N> whitened =
-      root.matrixL().solve(spread.transpose()).transpose();
-  const Vec18 step = whitened.lazyProduct(root.matrixL().solve(surprise).eval());
+  using MatN = Eigen::Matrix<double, N, N>;
+  const MatN root = expected.llt().matrixL();
+  const MatN whiten = root.inverse();
+  const Eigen::Matrix<double, 18, N> whitened = spread.lazyProduct(whiten.transpose());
+  const Vec18 step = whitened.lazyProduct((whiten * surprise).eval());
   state.covariance.noalias() -= whitened.lazyProduct(whitened.transpose());
   state.room_from_head = moved(state.room_from_head, step.template segment<3>(kPosition),
                                step.template segment<3>(kRotation));
@@ -177,13 +176,15 @@ void follow(HeadState& state, const Course& course, const Course& turning) {
   const Vec3 turn = turning.way(state.turn);
   const Mat3 turned = rotation_of(turn).toRotationMatrix();
   Mat18& covariance = state.covariance;
-  for (int side = 0; side < 2; ++side) {  // F P, then F (F P)^T
-    covariance.middleRows<3>(kRotation) = (turned * covariance.middleRows<3>(kRotation)).eval();
-    carry(covariance.topRows<9>(), course);
-    carry(covariance.bottomRows<9>(), turning);
-    covariance.transposeInPlace();
+  for (int side = 0; side < 2; ++side) {  // P F^T, then (P F^T)^T F^T; columns lie together
+    if (side == 1) covariance.transposeInPlace();
+    auto angles = covariance.middleCols<3>(kRotation);
+    angles = angles.lazyProduct(turned.transpose()).eval();
+    carry(covariance, kPosition, course);
+    carry(covariance, kRotation, turning);
   }
-  covariance = (0.5 * (covariance + covariance.transpose())).eval();
+  for (int i = 1; i < covariance.cols(); ++i)  // the same on both sides, to the last bit
+    covariance.col(i).head(i) = covariance.row(i).head(i);
   state.room_from_head = moved(state.room_from_head, course.way(state.move), turn);
   state.move = course.after(state.move);
   state.turn = turning.after(state.turn);

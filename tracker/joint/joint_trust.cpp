@@ -100,8 +100,9 @@ Mat6 JointMethod::information_now(std::size_t head) const {
                                   leds_of_heads_[head][static_cast<std::size_t>(accepted.led)]);
       if (!dot) continue;
       done[camera] = true;
-      information += dot->d_raw_d_pose.transpose() * dot->d_raw_d_pose /
-                     (entry->seen.dot_sigma_px * entry->seen.dot_sigma_px);
+      const Eigen::Matrix<double, 6, 2> in_sigmas =
+          dot->d_raw_d_pose.transpose() / entry->seen.dot_sigma_px;
+      information += in_sigmas.lazyProduct(in_sigmas.transpose());
     }
   }
   return information;

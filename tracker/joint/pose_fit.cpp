@@ -25,9 +25,10 @@ void add_dot(const LedSighting& sighting, const DotOfLed& dot, double huber, Nor
   const Vec2 residual_px = dot.raw_px - sighting.raw_px;
   const double sigmas = residual_px.norm() / sighting.sigma_px;
   const double weight = sigmas > huber ? huber / sigmas : 1;
-  const double scale = weight / (sighting.sigma_px * sighting.sigma_px);
-  normal.dots.noalias() += scale * dot.d_raw_d_pose.transpose() * dot.d_raw_d_pose;
-  normal.gradient.noalias() += scale * dot.d_raw_d_pose.transpose() * residual_px;
+  const double scale = std::sqrt(weight) / sighting.sigma_px;
+  const Eigen::Matrix<double, 6, 2> slope = scale * dot.d_raw_d_pose.transpose();
+  normal.dots += slope.lazyProduct(slope.transpose());
+  normal.gradient += slope.lazyProduct(scale * residual_px);
   normal.cost += sigmas > huber ? huber * (2 * sigmas - huber) : sigmas * sigmas;
   normal.square_px += residual_px.squaredNorm();
 }
