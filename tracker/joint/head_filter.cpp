@@ -12,8 +12,8 @@ namespace vindu {
 namespace {
 
 constexpr int kPosition = 0, kVelocity = 3, kRotation = 9, kTurning = 12;
-constexpr double kManoeuvre_s = 0.3;  // time constant of people's accelerations
-constexpr double kPull_s = 0.05;      // what dots pulled by is forgotten with
+constexpr double kReturn_rad_s = 2.5;  // of people's velocities, to zero: 0.4 Hz
+constexpr double kPull_s = 0.05;       // what dots pulled by is forgotten with
 
 /// What a velocity and an acceleration have come to after a while, for each unit of them.
 struct Course {
@@ -21,6 +21,7 @@ struct Course {
   double way_by_acceleration_s2 = 0;
   double velocity_left = 1;
   double velocity_by_acceleration_s = 0;
+  double acceleration_by_velocity_per_s = 0;
   double acceleration_left = 1;
 
   Vec3 way(const Motion& motion) const {
@@ -34,20 +35,32 @@ struct Course {
     return course;
   }
   Motion after(const Motion& motion) const {
-    return {velocity_left * motion.velocity + velocity_by_acceleration_s * motion.acceleration,
-            acceleration_left * motion.acceleration};
+    return {
+        velocity_left * motion.velocity + velocity_by_acceleration_s * motion.acceleration,
+        acceleration_by_velocity_per_s * motion.velocity + acceleration_left * motion.acceleration};
   }
 };
 
-// Singer's model: a(t) = a exp(-t / T). Damped: v(t) = v exp(-t / damping), and no acceleration.
+// Velocities of a second-order Gauss-Markov process (Gelb, "Applied optimal estimation", 1974, 3),
+// half critically damped: da/dt = -k a - k^2 v; its integral gives the way. Damped by the caller:
+// v(t) = v exp(-t / damping), and no acceleration.
 Course course_of(double dt_s, Duration damping) {
   if (damping > Duration::zero()) {
     const double left = std::exp(-dt_s / seconds(damping));
-    return {seconds(damping) * (1 - left), 0, left, 0, left};
+    return {seconds(damping) * (1 - left), 0, left, 0, 0, left};
   }
-  const double left = std::exp(-dt_s / kManoeuvre_s);
-  return {dt_s, kManoeuvre_s * kManoeuvre_s * (dt_s / kManoeuvre_s - 1 + left), 1,
-          kManoeuvre_s * (1 - left), left};
+  constexpr double k = kReturn_rad_s, kDecay = k / 2;
+  const double beat = k * std::sqrt(0.75), left = std::exp(-kDecay * dt_s);
+  const double cosine = left * std::cos(beat * dt_s), sine = left * std::sin(beat * dt_s) / beat;
+  Course course{.velocity_left = cosine + kDecay * sine,
+                .velocity_by_acceleration_s = sine,
+                .acceleration_by_velocity_per_s = -k * k * sine,
+                .acceleration_left = cosine - kDecay * sine};
+  course.way_by_velocity_s =
+      (k * (1 - course.velocity_left) - course.acceleration_by_velocity_per_s) / (k * k);
+  course.way_by_acceleration_s2 =
+      (1 - course.acceleration_left - k * course.velocity_by_acceleration_s) / (k * k);
+  return course;
 }
 
 /// Columns of position, velocity and acceleration, each three, moved on.
@@ -55,8 +68,10 @@ void carry(Mat18& covariance, int at, const Course& course) {
   auto place = covariance.middleCols<3>(at), velocity = covariance.middleCols<3>(at + 3),
        acceleration = covariance.middleCols<3>(at + 6);
   place += course.way_by_velocity_s * velocity + course.way_by_acceleration_s2 * acceleration;
-  velocity = course.velocity_left * velocity + course.velocity_by_acceleration_s * acceleration;
-  acceleration *= course.acceleration_left;
+  const Eigen::Matrix<double, 18, 3> before = velocity;
+  velocity = course.velocity_left * before + course.velocity_by_acceleration_s * acceleration;
+  acceleration =
+      course.acceleration_by_velocity_per_s * before + course.acceleration_left * acceleration;
 }
 
 // Of white jerk over dt (Bar-Shalom, Li & Kirubarajan, "Estimation with applications", 6.2.3).
@@ -137,9 +152,9 @@ Vec3 beyond_noise(const HeadState& state, const Vec3& vector, int at) {
   return beyond > 0 ? Vec3(std::sqrt(beyond / square) * vector) : Vec3(Vec3::Zero());
 }
 
-/// In sigmas, beyond what is usual: squares of 3.5, as the mean of three axes.
+/// In sigmas, beyond what is usual: squares of 2.5, as the mean of three axes.
 Vec3 unforeseen(const Pull& pull) {
-  constexpr double kUsual = 3.5;
+  constexpr double kUsual = 2.5;
   if (pull.variance.minCoeff() <= 0) return Vec3::Zero();
   const Vec3 sigmas = pull.sum.cwiseQuotient(pull.variance.cwiseSqrt());
   const double square = sigmas.squaredNorm() / 3;
@@ -152,7 +167,7 @@ Vec3 unforeseen(const Pull& pull) {
 // figures may be halved or doubled for a few per cent. A sine's jerk goes with its speed, and so
 // does its square, which a density is, with the speed's.
 MotionNoise noise_of_motion(const HeadState& state) {
-  constexpr double kRest_m2_s5 = 0.02, kBySpeed_per_s3 = 20;  // and the same in radians
+  constexpr double kRest_m2_s5 = 0.02, kBySpeed_per_s3 = 10;  // and the same in radians
   return {kRest_m2_s5 * Mat3::Identity() +
               kBySpeed_per_s3 * mostly_along(beyond_noise(state, state.move.velocity, kVelocity)),
           kRest_m2_s5 * Mat3::Identity() +
@@ -160,7 +175,7 @@ MotionNoise noise_of_motion(const HeadState& state) {
 }
 
 MotionNoise noise_of_change(const HeadState& state) {
-  constexpr double kByAcceleration_per_s = 6, kByPull_m2_s5 = 6;  // and the same in radians
+  constexpr double kByAcceleration_per_s = 4, kByPull_m2_s5 = 6;  // and the same in radians
   const auto by = [&](const Motion& motion, const Pull& pull, int at) -> Mat3 {
     return kByAcceleration_per_s * mostly_along(beyond_noise(state, motion.acceleration, at)) +
            kByPull_m2_s5 * mostly_along(unforeseen(pull));

@@ -57,8 +57,8 @@ struct MotionOptions {
   Duration turn_damping = Duration::zero();
 };
 
-/// To a later time, with accelerations that die out (Singer 1970). Earlier times are an error of
-/// the caller (assert).
+/// To a later time, with velocities that are drawn back to zero. Earlier times are an error of the
+/// caller (assert).
 void propagate(HeadState& state, Time to, const MotionNoise& noise,
                const MotionOptions& options = {});
 

@@ -27,13 +27,52 @@ HeadState known_at(const Rigid3& head, Time time, double sigma_m = 0.01) {
   return state_of(fit, time);
 }
 
-TEST(HeadFilter, moves_on_with_velocity_and_acceleration) {
+/// After so long, by Euler's steps of a hundredth of a millisecond: da/dt = -k a - k^2 v.
+struct Drawn {
+  double way = 0, velocity = 0, acceleration = 0;
+
+  void on(double length_s) {
+    constexpr double k = 2.5, kStep_s = 1e-5;
+    for (long i = 0; i < std::lround(length_s / kStep_s); ++i) {
+      way += kStep_s * velocity;
+      const double jerk = -k * acceleration - k * k * velocity;
+      velocity += kStep_s * acceleration;
+      acceleration += kStep_s * jerk;
+    }
+  }
+};
+
+TEST(HeadFilter, moves_on_with_velocities_that_are_drawn_back_to_zero) {
   HeadState state = known_at({Quat::Identity(), {0, 1.6, 2}}, Time{});
-  state.move.velocity = {0.4, 0, -0.2};
-  state.turn.velocity = {0, 0.5, 0};
+  state.move = {{0.4, 0, 0}, {1.5, 0, 0}};
+  state.turn = {{0, 0.5, 0}, {0, -2, 0}};
+  Drawn move{0, 0.4, 1.5}, turn{0, 0.5, -2};
+  move.on(0.5), turn.on(0.5);
   propagate(state, Time{} + milliseconds(500), {});
-  EXPECT_LT((state.room_from_head.translation - Vec3(0.2, 1.6, 1.9)).norm(), 1e-12);
-  EXPECT_NEAR(state.room_from_head.rotation.angularDistance(Quat::Identity()), 0.25, 1e-12);
+  EXPECT_NEAR(state.room_from_head.translation.x(), move.way, 1e-4);
+  EXPECT_NEAR(state.move.velocity.x(), move.velocity, 1e-4);
+  EXPECT_NEAR(state.move.acceleration.x(), move.acceleration, 1e-4);
+  EXPECT_NEAR(vector_of(state.room_from_head.rotation).y(), turn.way, 1e-4);
+  EXPECT_NEAR(state.turn.velocity.y(), turn.velocity, 1e-4);
+}
+
+/// What a step does to the state it does to its errors.
+TEST(HeadFilter, carries_its_errors_as_it_carries_its_state) {
+  const auto moved_on = [](double velocity, double acceleration) {
+    HeadState state = known_at({}, Time{});
+    state.covariance *= 1e-20;
+    state.move = {{velocity, 0, 0}, {acceleration, 0, 0}};
+    state.covariance(3, 3) = velocity * velocity;
+    state.covariance(6, 6) = acceleration * acceleration;
+    propagate(state, Time{} + milliseconds(200), {Mat3::Zero(), Mat3::Zero()});
+    return state;
+  };
+  for (const HeadState& state : {moved_on(1, 0), moved_on(0, 1)}) {
+    const auto sigma = [&](int i) { return std::sqrt(state.covariance(i, i)); };
+    EXPECT_NEAR(sigma(0), std::abs(state.room_from_head.translation.x()), 1e-9);
+    EXPECT_NEAR(sigma(3), std::abs(state.move.velocity.x()), 1e-9);
+    EXPECT_NEAR(sigma(6), std::abs(state.move.acceleration.x()), 1e-9);
+  }
 }
 
 TEST(HeadFilter, comes_to_rest_when_damped) {
@@ -194,10 +233,17 @@ TEST(HeadFilter, is_less_sure_of_what_it_predicts) {
 TEST(HeadFilter, predicts_a_moving_head_and_leaves_a_still_one) {
   HeadState state = known_at({}, Time{});
   state.move.velocity = {0.5, 0, 0};
-  EXPECT_NEAR(predicted(state, milliseconds(40)).room_from_head.translation.x(), 0.02, 1e-12);
-  EXPECT_NEAR(predicted(state, seconds(3)).room_from_head.translation.x(), 0.03, 1e-12);  // 60 ms
+  const auto way_after = [&](Duration ahead) {
+    return predicted(state, ahead).room_from_head.translation.x();
+  };
+  Drawn move{0, 0.5, 0};
+  move.on(0.04);
+  EXPECT_NEAR(way_after(milliseconds(40)), move.way, 1e-6);
+  move.on(0.02);
+  EXPECT_NEAR(way_after(milliseconds(60)), move.way, 1e-6);
+  EXPECT_EQ(way_after(seconds(3)), way_after(milliseconds(60)));  // the farthest that it looks
   state.move.velocity = {0.005, 0, 0};
-  EXPECT_EQ(predicted(state, milliseconds(40)).room_from_head.translation.x(), 0);
+  EXPECT_EQ(way_after(milliseconds(40)), 0);
 }
 
 class AssociationTest : public ::testing::Test {
