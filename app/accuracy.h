@@ -25,7 +25,11 @@ struct FrameRow {
   FrameStudyOptions options;
   FrameStudy study;
 
-  double over_bound() const { return study.joint.eye_m / study.bound.eye_m; }
+  /// Empty where no pose was found right.
+  std::optional<double> over_bound() const {
+    if (!(study.bound.eye_m > 0)) return std::nullopt;
+    return study.joint.eye_m / study.bound.eye_m;
+  }
 };
 
 /// One motion. The thesis' method has its own helmet and two cameras.

@@ -24,7 +24,7 @@ constexpr double kLeast_mm = 0.5, kLargest_mm = 100;
 /// One measurement: what is known of its errors, in metres.
 struct Line {
   std::string name;
-  double ours_m = 0;
+  double ours_m = 0;  ///< 0: nothing was found right
   std::optional<double> thesis_m = {};
   double best_m = 0;          ///< the bound, or the best fixed noise
   bool starts_group = false;  ///< some space before it
@@ -87,6 +87,7 @@ void draw_best(Diagram& diagram, const Vec2& at_px) {
 }
 
 void draw_marks(Diagram& diagram, const Vec2& left_px, const Line& line) {
+  if (line.ours_m == 0) return;
   const auto at = [&](double error_m) -> Vec2 { return left_px + Vec2(offset_px(error_m), 0); };
   if (line.thesis_m) {
     diagram.line(at(line.ours_m), at(*line.thesis_m), 1.5, {213, 94, 0, 90});

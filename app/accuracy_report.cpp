@@ -23,11 +23,14 @@ std::string levels_text(const std::array<double, N>& levels) {
 
 std::string frame_line(const FrameRow& row) {
   const FrameErrors &ours = row.study.joint, &bound = row.study.bound;
-  std::string line = fmt::format(
-      "{:<49}{:>6.1f} ({:>4.1f} /{:>5.1f}){:>6.2f}{:>7}{:>6} |{:>6.1f}{:>6.2f}{:>6.2f} |",
-      name_of(row), 1e3 * ours.eye_m, 1e3 * ours.lateral_m, 1e3 * ours.depth_m,
-      degrees(ours.rotation_rad), percent(ours.found), percent(ours.wrong), 1e3 * bound.eye_m,
-      degrees(bound.rotation_rad), row.over_bound());
+  if (!row.over_bound())
+    return fmt::format("{:<49}{:>6} ({:>4} /{:>5}){:>6}{:>7}{:>6} |\n", name_of(row), kNone, kNone,
+                       kNone, kNone, percent(ours.found), percent(ours.wrong));
+  std::string line =
+      fmt::format("{:<49}{:>6.1f} ({:>4.1f} /{:>5.1f}){:>6.2f}{:>7}{:>6} |{:>6.1f}{:>6.2f}{:>6} |",
+                  name_of(row), 1e3 * ours.eye_m, 1e3 * ours.lateral_m, 1e3 * ours.depth_m,
+                  degrees(ours.rotation_rad), percent(ours.found), percent(ours.wrong),
+                  1e3 * bound.eye_m, degrees(bound.rotation_rad), ratio(row.over_bound()));
   const auto& thesis = row.study.thesis;
   if (!thesis) return line + "\n";
   if (thesis->found == 0) return line + fmt::format("{:>6}\n", kNone);
@@ -105,9 +108,9 @@ std::string json_of(const FrameRow& row) {
                                  options.row.cameras, options.head.leds_in_head.size());
   if (options.dots_of_last)
     text += fmt::format(R"("dots_of_last_camera":{},)", *options.dots_of_last);
-  text += fmt::format(R"("poses":{},"passed_over":{},"ours":{},"bound":{},"ours_over_bound":{})",
-                      row.study.poses, row.study.passed_over, json_of(row.study.joint),
-                      json_of(row.study.bound), row.over_bound());
+  text += fmt::format(R"("poses":{},"passed_over":{},"ours":{},"bound":{})", row.study.poses,
+                      row.study.passed_over, json_of(row.study.joint), json_of(row.study.bound));
+  if (const auto value = row.over_bound()) text += fmt::format(R"(,"ours_over_bound":{})", *value);
   if (row.study.thesis)
     text += fmt::format(R"(,"thesis":{},"thesis_levels":{})", json_of(*row.study.thesis),
                         json_of_levels(row.study.thesis->levels));

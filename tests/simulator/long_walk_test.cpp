@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "simulator/led_sight.h"
 #include "simulator/person.h"
+#include "simulator/single_frame.h"
 #include "simulator/trial.h"
 #include "tracker/eye_ease.h"
 
@@ -26,23 +28,29 @@ double now_and_then(double t_s, double every_s, double length_s, double at_s) {
   return sine * sine;
 }
 
-TrialOptions room_with_a_restless_walker(std::uint64_t seed) {
+struct Walker {
+  std::uint64_t seed;
+  int leds;  // 3: the thesis' helmet
+};
+
+TrialOptions room_with_a_restless(const Walker& walker) {
   const Site site = read_site(VINDU_SOURCE_DIR "/assets/walls/tromso.toml");
-  PersonOptions walk{.seed = seed};
+  const HeadConfig head = walker.leds == 4 ? four_led_head() : site.heads.front();
+  PersonOptions walk{.seed = walker.seed};
   walk.least_eye_in_room.x() = -1.6;  // farther than both cameras see
   walk.largest_eye_in_room.x() = 1.6;
   walk.largest_eye_in_room.z() = 2.6;
-  const Person person(site.heads.front(), site.wall.room_from_wall, walk);
-  TrialOptions options{.cameras = site.cameras, .head = site.heads.front(), .room_from_head = {}};
+  const Person person(head, site.wall.room_from_wall, walk);
+  TrialOptions options{.cameras = site.cameras, .head = head, .room_from_head = {}};
   options.room_from_head = [person](Time time) {
     const double t_s = seconds(time.time_since_epoch());
-    Rigid3 head = person.room_from_head(time);
+    Rigid3 pose = person.room_from_head(time);
     const double turn_rad = radians(150) * now_and_then(t_s, 41, 6, 11);
-    head.rotation = Quat(Eigen::AngleAxisd(turn_rad, Vec3::UnitY())) * head.rotation;
-    head.translation.y() -= 0.6 * now_and_then(t_s, 23, 3, 5);
-    return head;
+    pose.rotation = Quat(Eigen::AngleAxisd(turn_rad, Vec3::UnitY())) * pose.rotation;
+    pose.translation.y() -= 0.6 * now_and_then(t_s, 23, 3, 5);
+    return pose;
   };
-  options.wiimote.seed = seed;
+  options.wiimote.seed = walker.seed;
   options.wiimote.link = two_on_one_adapter();
   options.wiimote.false_dots = 0.02;
   options.wiimote.glints = {{{-0.9, 2.2, 0.3}, 1.5}, {{0.7, 0.9, 0.2}, 1.5}};
@@ -74,10 +82,10 @@ bool can_be_told(const TrialOptions& options, Time captured) {
              .level == TrackingLevel::six_dof;
 }
 
-class LongWalk : public ::testing::TestWithParam<std::uint64_t> {};
+class LongWalk : public ::testing::TestWithParam<Walker> {};
 
 TEST_P(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
-  const TrialOptions options = room_with_a_restless_walker(GetParam());
+  const TrialOptions options = room_with_a_restless(GetParam());
   const auto frames = run_trial(options, {TrackingConfig{}})[0];
   EyeEase ease(Vec3(0, 1.65, 2));
   Runs wrong, off, needlessly_off;
@@ -117,7 +125,14 @@ TEST_P(LongWalk, never_shows_a_wrong_head_nor_a_jump) {
   EXPECT_GT(tracked, static_cast<int>(frames.size() / 2));
 }
 
-INSTANTIATE_TEST_SUITE_P(Walkers, LongWalk, ::testing::Values(1, 3, 29, 39, 74));
+INSTANTIATE_TEST_SUITE_P(Walkers, LongWalk,
+                         ::testing::Values(Walker{1, 3}, Walker{3, 3}, Walker{29, 3}, Walker{39, 3},
+                                           Walker{74, 3}, Walker{88, 3}, Walker{190, 3},
+                                           Walker{14, 4}, Walker{15, 4}),
+                         [](const auto& walker) {
+                           return "number_" + std::to_string(walker.param.seed) + "_with_" +
+                                  std::to_string(walker.param.leds) + "_leds";
+                         });
 
 }  // namespace
 }  // namespace vindu

@@ -35,6 +35,12 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::span<const Camera
   return pairs;
 }
 
+std::ptrdiff_t dots_of(std::span<const CameraView> views) {
+  std::ptrdiff_t dots = 0;
+  for (const CameraView& view : views) dots += std::ssize(view.dots_px);
+  return dots;
+}
+
 }  // namespace
 
 std::ptrdiff_t FoundHead::dots() const {
@@ -66,7 +72,8 @@ class HeadSearch::Contest {
         views_(std::move(views)),
         leds_(std::move(leds)),
         options_(options),
-        pairs_(pairs_of(cameras_, views_)) {
+        pairs_(pairs_of(cameras_, views_)),
+        few_(dots_of(views_) < kManyDots) {
     const Vec3 inverse = options.facing_sigma_rad.cwiseInverse();
     prior_.information.diagonal().tail<3>() = inverse.cwiseProduct(inverse);
   }
@@ -113,6 +120,15 @@ class HeadSearch::Contest {
     return best == entries_.end() ? std::nullopt : std::optional(best->fit.room_from_head);
   }
 
+  /// Whether what is believed is not the best, and neither near it nor nearly as good.
+  bool believed_is_beaten() const {
+    if (!options_.believed || entries_.empty()) return false;
+    const auto best = std::ranges::min_element(entries_, {}, &FoundHead::cost);
+    const auto believed = std::ranges::find(entries_, true, &FoundHead::believed);
+    return believed == entries_.end() ||
+           (elsewhere(*believed, *best) && believed->cost > best->cost + options_.least_margin);
+  }
+
   std::optional<FoundHead> winner() {
     if (entries_.empty()) return std::nullopt;
     const auto best = std::ranges::min_element(entries_, {}, &FoundHead::cost);
@@ -130,17 +146,41 @@ class HeadSearch::Contest {
   }
 
  private:
+  void enter(const Rigid3& rough) {
+    const Labels nearest = label(rough, kGates_px[0]);
+    pursue(rough, nearest);
+    if (few_) pursue_others(rough, nearest);
+  }
+
+  /// A rough pose does not tell which LED a dot is where several stand near it; among few dots
+  /// there may be no other rough pose that does. One dot at a time is another one near it.
+  void pursue_others(const Rigid3& rough, const Labels& nearest) {
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      const CostMatrix off = distances(views_[v], rough, kGates_px[0] / 4);
+      for (std::size_t dot = 0; dot < nearest[v].size(); ++dot)
+        for (int led = 0; led < off.cols(); ++led) {
+          const int own = nearest[v][dot];
+          if (led == own || !(off(static_cast<Eigen::Index>(dot), led) < options_.false_dot_cost))
+            continue;
+          Labels labels = nearest;
+          std::ranges::replace(labels[v], led, own);
+          labels[v][dot] = led;
+          pursue(rough, std::move(labels));
+        }
+    }
+  }
+
   /// Completes a rough pose with all dots that fit it, in rounds with a shrinking gate. Most rough
   /// poses meet in a labelling that was tried before, or leave too much unexplained beside what was
   /// found already; they end there.
-  void enter(const Rigid3& rough) {
-    constexpr std::array<double, kRounds> kGates_px = {40, 12, 0};
+  void pursue(const Rigid3& rough, Labels labels) {
     Rigid3 pose = rough;
     std::optional<PoseFit> fit;
-    Labels labels;
     for (std::size_t round = 0; round < kRounds; ++round) {
-      if (round > 0 && settled_cost_ < kNoPair && hopeless(pose)) return;
-      labels = label(pose, kGates_px[round]);
+      if (round > 0) {
+        if (settled() && hopeless(pose)) return;
+        labels = label(pose, kGates_px[round]);
+      }
       if (std::ranges::find(tried_[round], labels) != tried_[round].end()) return;
       tried_[round].push_back(labels);
       const auto sightings = sightings_of(labels);
@@ -164,12 +204,17 @@ class HeadSearch::Contest {
     return best && std::ssize(sightings_of(best->led_of_dot)) >= kManyDots;
   }
 
+  /// Who turns away from the wall is looked for by few dots alone: else these would seem to be of
+  /// one who does not.
+  double steepest_rad() const { return few_ ? radians(120) : radians(80); }
+
   RoughPoses of_pair(const std::pair<std::size_t, std::size_t>& pair) const {
     return candidates_from_pair(cameras_, views_[pair.first], views_[pair.second], leds_,
-                                /*least_leds=*/1, options_.candidates_kept);
+                                /*least_leds=*/1, options_.candidates_kept, steepest_rad());
   }
   RoughPoses of_one(const CameraView& view) const {
-    return view.dots_px.size() < 3 ? RoughPoses(none) : candidates_from_one(cameras_, view, leds_);
+    return view.dots_px.size() < 3 ? RoughPoses(none)
+                                   : candidates_from_one(cameras_, view, leds_, steepest_rad());
   }
   static std::optional<std::vector<Rigid3>> none() { return std::nullopt; }
 
@@ -240,6 +285,7 @@ class HeadSearch::Contest {
   }
 
   static constexpr std::size_t kRounds = 3;
+  static constexpr std::array<double, kRounds> kGates_px = {40, 12, 0};  // zero: the dots' sigma
 
   static bool elsewhere(const FoundHead& a, const FoundHead& b) {
     constexpr double kSame_m = 0.03, kSame_rad = radians(12);
@@ -254,6 +300,7 @@ class HeadSearch::Contest {
   AcquisitionOptions options_;
   PosePrior prior_;
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+  bool few_;  // dots
   std::size_t next_pair_ = 0, next_view_ = 0;
   RoughPoses poses_ = none;  // of the pair or view before these
   std::array<std::vector<Labels>, kRounds> tried_;
@@ -281,6 +328,8 @@ bool HeadSearch::advance(std::size_t most) {
 std::size_t HeadSearch::steps() const { return contest_->steps(); }
 
 std::optional<FoundHead> HeadSearch::winner() const { return contest_->winner(); }
+
+bool HeadSearch::believed_is_beaten() const { return contest_->believed_is_beaten(); }
 
 std::optional<Rigid3> HeadSearch::leading() const { return contest_->leading(); }
 

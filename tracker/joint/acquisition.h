@@ -73,6 +73,10 @@ class HeadSearch {
   /// In the end. Empty when there is no candidate, or two are too close to choose.
   std::optional<FoundHead> winner() const;
 
+  /// In the end. Whether another pose is better than what was believed, by the margin, though a
+  /// third one may be nearly as good.
+  bool believed_is_beaten() const;
+
   /// The best so far, however close another one comes.
   std::optional<Rigid3> leading() const;
 

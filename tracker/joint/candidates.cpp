@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 
 #include "tracker/point_fit.h"
 #include "tracker/triangulation.h"
@@ -13,7 +12,6 @@ namespace {
 
 constexpr double kLargestGap_rad = 8.0 / 1335;  // eight pixels of a Wiimote
 constexpr double kMotion_m = 0.01;              // of a head between two cameras' pictures
-constexpr double kSteepest_rad = radians(80);   // from upright and facing the wall
 constexpr std::size_t kDotsForOne = 6;          // of one camera: their triples are tried
 
 struct MetPoint {
@@ -121,8 +119,8 @@ class Matcher {
   std::vector<Match> found_;
 };
 
-bool upright(const Rigid3& room_from_head) {
-  return room_from_head.rotation.angularDistance(Quat::Identity()) < kSteepest_rad;
+bool upright(const Rigid3& room_from_head, double steepest_rad) {
+  return room_from_head.rotation.angularDistance(Quat::Identity()) < steepest_rad;
 }
 
 /// Of two LEDs: the least turn from facing the wall that points from one to the other.
@@ -142,49 +140,56 @@ Rigid3 pose_of(const Match& match, std::span<const Vec3> leds,
   return {rotation, 0.5 * (in_room[0] + in_room[1]) - rotation * middle_in_head};
 }
 
-cv::Point2d in_plane(const CameraModel& camera, const Vec2& raw_px) {
-  const Vec3 direction =
-      camera.camera_from_room().rotation * camera.ray_through(raw_px).direction_in_room;
-  return {direction.x() / direction.z(), direction.y() / direction.z()};
-}
+/// A camera turned to a direction: what it sees there has no perspective.
+struct Gaze {
+  Vec3 eye_in_room;
+  Quat room_from_gaze;  // z: the direction
 
-void add_p3p(const CameraModel& camera, const std::vector<cv::Point3d>& leds,
-             const std::vector<cv::Point2d>& dots, std::vector<Rigid3>& poses) {
-  std::vector<cv::Vec3d> turns, shifts;
-  cv::solveP3P(leds, dots, cv::Matx33d::eye(), cv::noArray(), turns, shifts, cv::SOLVEPNP_P3P);
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    const Vec3 turn(turns[i][0], turns[i][1], turns[i][2]);
-    const Vec3 shift(shifts[i][0], shifts[i][1], shifts[i][2]);
-    if (!turn.allFinite() || !shift.allFinite() || shift.z() <= 0) continue;
-    const Rigid3 camera_from_head = {Quat(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized())),
-                                     shift};
-    const Rigid3 pose = camera.room_from_camera() * camera_from_head;
-    if (upright(pose)) poses.push_back(pose);
+  Vec2 seen(const Ray& ray) const {
+    const Vec3 direction = room_from_gaze.conjugate() * ray.direction_in_room;
+    return direction.head<2>() / direction.z();
   }
-}
+  /// A point that is seen there, so far away.
+  Vec3 in_room(const Vec2& seen, double scale, double depth_m) const {
+    const Vec3 in_gaze(seen.x() / scale, seen.y() / scale, 1 / scale + depth_m);
+    return eye_in_room + room_from_gaze * in_gaze;
+  }
+};
 
-/// The head facing the wall, at the distance and in the direction that its size and place in the
-/// picture tell (weak perspective). Where two solutions nearly meet, noise leaves P3P none.
-void add_facing(const CameraModel& camera, const std::vector<cv::Point3d>& leds,
-                const std::vector<cv::Point2d>& dots, std::vector<Rigid3>& poses) {
-  constexpr double kLargestMisfit = 0.25;  // of the squares of the dots' distances
-  const Quat camera_from_head = camera.camera_from_room().rotation;
-  Eigen::Matrix3d led_in_camera;
-  Eigen::Matrix<double, 2, 3> dot;
-  for (int i = 0; i < 3; ++i) {
-    const cv::Point3d& led = leds[static_cast<std::size_t>(i)];
-    led_in_camera.col(i) = camera_from_head * Vec3(led.x, led.y, led.z);
-    dot.col(i) << dots[static_cast<std::size_t>(i)].x, dots[static_cast<std::size_t>(i)].y;
+/// The upright ones of the two poses in which three LEDs are seen in three dots, as far as the head
+/// is small beside its distance (weak perspective: Alter, "3-D pose from 3 points using weak
+/// perspective", 1994, equations 1 to 3). Unlike those of P3P they are always there: noise does not
+/// take them away where they nearly meet. None of LEDs in a line.
+void add_poses_of_three(const std::array<Ray, 3>& rays, const std::array<Vec3, 3>& leds,
+                        double steepest_rad, std::vector<Rigid3>& poses) {
+  Vec3 mean = Vec3::Zero();
+  for (const Ray& ray : rays) mean += ray.direction_in_room;
+  const Gaze gaze = {rays[0].origin_in_room, least_turn(Vec3::UnitZ(), mean)};
+  std::array<Vec2, 3> dots;
+  for (std::size_t i = 0; i < 3; ++i) dots[i] = gaze.seen(rays[i]);
+  const double r01 = (leds[1] - leds[0]).squaredNorm(), r02 = (leds[2] - leds[0]).squaredNorm(),
+               r12 = (leds[2] - leds[1]).squaredNorm();
+  const double d01 = (dots[1] - dots[0]).squaredNorm(), d02 = (dots[2] - dots[0]).squaredNorm(),
+               d12 = (dots[2] - dots[1]).squaredNorm();
+  // 16 times the squares of the triangles' areas, and what stands between them.
+  const double a = 4 * r01 * r02 - (r01 + r02 - r12) * (r01 + r02 - r12);
+  const double c = 4 * d01 * d02 - (d01 + d02 - d12) * (d01 + d02 - d12);
+  const double b = d01 * (-r01 + r02 + r12) + d02 * (r01 - r02 + r12) + d12 * (r01 + r02 - r12);
+  if (a < 1e-4 * r01 * r02) return;
+  const double scale2 = (b + std::sqrt(std::max(0.0, b * b - a * c))) / a;
+  if (!(scale2 > 0)) return;
+  const double scale = std::sqrt(scale2);
+  const double h1 = std::sqrt(std::max(0.0, scale2 * r01 - d01)) / scale;
+  const bool alike = d01 + d02 - d12 <= scale2 * (r01 + r02 - r12);
+  const double h2 = (alike ? 1 : -1) * std::sqrt(std::max(0.0, scale2 * r02 - d02)) / scale;
+  for (const double sign : {1.0, -1.0}) {
+    const std::array<Vec3, 3> in_room = {gaze.in_room(dots[0], scale, 0),
+                                         gaze.in_room(dots[1], scale, sign * h1),
+                                         gaze.in_room(dots[2], scale, sign * h2)};
+    const PointFit fit = fit_points(in_room, leds);
+    const Rigid3 pose = Rigid3::from(fit.rotation, fit.translation);
+    if (upright(pose, steepest_rad)) poses.push_back(pose);
   }
-  const Vec3 leds_mean = led_in_camera.rowwise().mean();
-  const Vec2 dots_mean = dot.rowwise().mean();
-  const Eigen::Matrix<double, 2, 3> across = (led_in_camera.colwise() - leds_mean).topRows<2>();
-  const Eigen::Matrix<double, 2, 3> seen = dot.colwise() - dots_mean;
-  const double per_m = seen.cwiseProduct(across).sum() / across.squaredNorm();
-  if (!(per_m > 0) || (seen - per_m * across).squaredNorm() > kLargestMisfit * seen.squaredNorm())
-    return;
-  const Vec3 middle = Vec3(dots_mean.x(), dots_mean.y(), 1) / per_m;
-  poses.push_back(camera.room_from_camera() * Rigid3{camera_from_head, middle - leds_mean});
 }
 
 /// Three dots, and the LED that each of them may be.
@@ -208,7 +213,7 @@ std::vector<Three> threes_of(std::size_t dots, std::size_t leds) {
 
 RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const CameraView& a,
                                 const CameraView& b, std::span<const Vec3> leds_in_head,
-                                std::size_t least_leds, std::size_t kept) {
+                                std::size_t least_leds, std::size_t kept, double steepest_rad) {
   auto points = meeting_points(cameras[static_cast<std::size_t>(a.camera)], a,
                                cameras[static_cast<std::size_t>(b.camera)], b);
   auto matches = Matcher(leds_in_head, points, least_leds).matches();
@@ -216,7 +221,7 @@ RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const Came
           next = std::size_t{0}]() mutable -> std::optional<std::vector<Rigid3>> {
     while (left > 0 && next < matches.size()) {
       const Rigid3 pose = pose_of(matches[next++], leds_in_head, points);
-      if (!upright(pose)) continue;
+      if (!upright(pose, steepest_rad)) continue;
       --left;
       return std::vector{pose};
     }
@@ -225,24 +230,17 @@ RoughPoses candidates_from_pair(std::span<const CameraModel> cameras, const Came
 }
 
 RoughPoses candidates_from_one(std::span<const CameraModel> cameras, const CameraView& view,
-                               std::span<const Vec3> leds_in_head) {
-  const CameraModel& camera = cameras[static_cast<std::size_t>(view.camera)];
-  const std::size_t dots = std::min(view.dots_px.size(), kDotsForOne);
-  std::vector<cv::Point2d> plane;
-  for (std::size_t i = 0; i < dots; ++i) plane.push_back(in_plane(camera, view.dots_px[i]));
-  return [&camera, leds_in_head, plane = std::move(plane),
-          threes = threes_of(dots, leds_in_head.size()),
+                               std::span<const Vec3> leds_in_head, double steepest_rad) {
+  auto rays = rays_of(cameras[static_cast<std::size_t>(view.camera)], view);
+  auto threes = threes_of(std::min(rays.size(), kDotsForOne), leds_in_head.size());
+  return [leds_in_head, steepest_rad, rays = std::move(rays), threes = std::move(threes),
           next = std::size_t{0}]() mutable -> std::optional<std::vector<Rigid3>> {
     if (next == threes.size()) return std::nullopt;
-    const Three& three = threes[next++];
-    std::vector<cv::Point3d> leds;
-    std::vector<cv::Point2d> seen;
-    for (const std::size_t led : three.leds)
-      leds.emplace_back(leds_in_head[led].x(), leds_in_head[led].y(), leds_in_head[led].z());
-    for (const std::size_t dot : three.dots) seen.push_back(plane[dot]);
+    const auto& [dots, leds] = threes[next++];
     std::vector<Rigid3> poses;
-    add_facing(camera, leds, seen, poses);
-    add_p3p(camera, leds, seen, poses);
+    add_poses_of_three({rays[dots[0]], rays[dots[1]], rays[dots[2]]},
+                       {leds_in_head[leds[0]], leds_in_head[leds[1]], leds_in_head[leds[2]]},
+                       steepest_rad, poses);
     return poses;
   };
 }

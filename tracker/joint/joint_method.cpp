@@ -204,6 +204,7 @@ void JointMethod::bear(std::size_t head, const FoundHead& found, std::size_t ent
   }
   entries_[entry].births.emplace_back(head, state);
   searches_[head].sure = state.time;
+  searches_[head].beaten = 0;
   replay_from_ = std::min(replay_from_, entry);
 }
 
@@ -249,7 +250,7 @@ Duration JointMethod::pause_of_looks(std::size_t head) const {
     left += left_here;
     nothing_else |= accepted.empty() && left_here >= 2;
   }
-  if (track.surprise > kSurprising || nothing_else) return kDoubt;
+  if (track.surprise > kSurprising || nothing_else || searches_[head].beaten > 0) return kDoubt;
   if (own < kManyDots) return left > 0 ? kDoubt : kCheck;
   return kOwnPerLeft * left > own ? kDoubt : left > 0 ? kCheck : kCheckMany;
 }
@@ -370,6 +371,7 @@ bool JointMethod::confirmed(Search& search, const Rigid3& pose, Time captured, i
 void JointMethod::conclude(std::size_t head) {
   Search& search = searches_[head];
   const Look& look = *search.look;
+  search.beaten = look.search.believed_is_beaten() ? search.beaten + 1 : 0;
   const auto found = look.search.winner();
   const Verdict verdict = verdict_on(look, head, found);
   if (verdict.fits) judge_cameras(look.search.views(), *found);

@@ -178,6 +178,7 @@ class JointMethod {
     Time seen = Time::min();         // capture of the newest report of that look
     std::optional<Rumour> rumour{};  // of the last look, unless it is tracked there
     int confirmed = 0;               // looks in a row that found it there
+    int beaten = 0;                  // looks in a row that found better than what is tracked
     FailedLooks failed{};
     HeadTrack last{};  // that was tracked
     Time sure{};       // capture of the newest report when it was sure

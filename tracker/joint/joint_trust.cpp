@@ -26,6 +26,7 @@ bool JointMethod::bears(const Entry& entry, std::size_t head) {
 bool JointMethod::contradicted(std::size_t head) const {
   constexpr Duration kLately = Milliseconds(100);
   constexpr double kFew = 5, kLeftPerOwn = 0.5;
+  if (searches_[head].beaten >= 2) return true;
   struct Count {
     double reports = 0, own = 0, left = 0;
   };

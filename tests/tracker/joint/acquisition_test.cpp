@@ -129,21 +129,49 @@ TEST(FindHead, does_with_two_leds_that_both_see_and_a_third_that_one_sees) {
 }
 
 /// What is left open, the turn about the line through them, the prior decides.
-TEST(FindHead, finds_a_turned_head_by_two_leds) {
+/// From the left camera the middle LED and the right one stand nearly in one direction; the right
+/// camera sees the left one alone, at the edge of its picture.
+TEST(FindHead, overlooks_no_labelling_where_two_leds_stand_behind_each_other) {
+  const auto cameras = cameras_behind(2);
+  const Vec3 inverse = kFacingSigma_rad.cwiseInverse();
+  PosePrior facing;
+  facing.information.diagonal().tail<3>() = inverse.cwiseProduct(inverse);
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Quat turn = Eigen::AngleAxisd(radians(random.uniform(12, 16)), Vec3::UnitY()) *
+                      Eigen::AngleAxisd(radians(random.uniform(-8, 0)), Vec3::UnitX());
+    const Rigid3 head = {turn, {random.uniform(1.2, 1.28), random.uniform(1.7, 1.85), 2.0}};
+    auto views = views_of(cameras, head, kThreeLeds, 0.5, random);
+    views[1].dots_px.resize(1);
+    auto sightings = sightings_of({views[0]}, kThreeLeds, views[0].sigma_px);
+    sightings.push_back({1, kThreeLeds[0], views[1].dots_px[0], views[1].sigma_px});
+    const auto truth = fit_pose(cameras, sightings, head, facing);
+    const AcquisitionOptions options = {.least_margin = 0, .least_dots = 4};
+    const auto found = find_head(cameras, views, kThreeLeds, options);
+    ASSERT_TRUE(found) << i;
+    EXPECT_LT(found->cost, truth->cost + 2 * options.missing_led_cost + 0.01) << i;
+  }
+}
+
+/// Two dots in each camera, that may as well be two other LEDs for all that is known of a third of
+/// these heads: those are not found.
+TEST(FindHead, finds_a_turned_head_by_two_leds_or_nobody) {
   const auto cameras = cameras_behind(2);
   Random random(10);
-  int right = 0;
+  int right = 0, wrong = 0;
   for (int i = 0; i < 300; ++i) {
     Rigid3 head = random_head(random);
     head.rotation = Quat(Eigen::AngleAxisd(radians(60), Vec3::UnitY()));
     auto views = views_of(cameras, head, kFourLeds, 0.3, random);
     for (CameraView& view : views) view.dots_px.resize(2);
     const auto found = find_head(cameras, views, kFourLeds);
-    right +=
-        found && (found->fit.room_from_head * kFourLeds[0] - head * kFourLeds[0]).norm() < 0.03;
+    if (!found) continue;
+    const double off_m = (found->fit.room_from_head * kFourLeds[0] - head * kFourLeds[0]).norm();
+    ++(off_m < 0.03 ? right : wrong);
   }
-  std::printf("  right in %d of 300\n", right);
-  EXPECT_GE(right, 298);  // 294 where the fit starts from a head that faces the wall
+  std::printf("  right in %d of 300, wrong in %d\n", right, wrong);
+  EXPECT_GE(right, 80);
+  EXPECT_EQ(wrong, 0);
 }
 
 // A second look, with other false dots, is the tracker's remedy for the rest.
@@ -159,14 +187,13 @@ TEST(FindHead, hardly_ever_finds_somebody_in_false_dots) {
         views[static_cast<std::size_t>(camera)].dots_px.emplace_back(random.uniform(0, 1023),
                                                                      random.uniform(0, 767));
     }
-    found += find_head(cameras, views, kThreeLeds).has_value();
+    found += find_head(cameras, views, kThreeLeds, {.least_dots = 4}).has_value();
   }
   EXPECT_LE(found, 12);  // of 300
 }
 
-/// A head that is turned away from the wall: nobody is looked for there, but what is tracked there
-/// hardly ever lets a wrong pose be found in its dots.
-TEST(FindHead, finds_nobody_in_the_dots_of_a_head_that_is_tracked) {
+/// Few dots of a head that is turned away from the wall, beside a lamp.
+TEST(FindHead, hardly_ever_takes_the_dots_of_one_who_turns_away_for_another_pose) {
   const auto cameras = cameras_behind(2);
   Random random(13);
   int wrong = 0, wrong_beside_the_tracked = 0;
@@ -186,8 +213,28 @@ TEST(FindHead, finds_nobody_in_the_dots_of_a_head_that_is_tracked) {
         elsewhere(find_head(cameras, views, kThreeLeds, {.believed = head}));
   }
   std::printf("  of 300: %d wrong, %d beside what is tracked\n", wrong, wrong_beside_the_tracked);
-  EXPECT_GT(wrong, 10);
+  EXPECT_LE(wrong, 4);
   EXPECT_LE(wrong_beside_the_tracked, 2);
+}
+
+TEST(HeadSearch, says_where_dots_speak_for_another_pose_than_the_believed_one) {
+  const auto cameras = cameras_behind(2);
+  Random random(17);
+  const Rigid3 head = random_head(random);
+  const auto beaten = [&](const Rigid3& believed, std::size_t dots) {
+    auto views = views_of(cameras, head, kThreeLeds, 0.5, random);
+    for (CameraView& view : views) view.dots_px.resize(dots);
+    HeadSearch search(cameras, std::move(views), kThreeLeds, {.believed = believed});
+    search.advance(search.steps());
+    return search.believed_is_beaten();
+  };
+  const Rigid3 aside = {head.rotation, head.translation + Vec3(0.2, 0, 0)};
+  const Rigid3 one_led_on = {head.rotation, head * kThreeLeds[1] - head.rotation * kThreeLeds[0]};
+  EXPECT_FALSE(beaten(head, 3));
+  EXPECT_TRUE(beaten(aside, 3));
+  EXPECT_TRUE(beaten(one_led_on, 3));
+  EXPECT_FALSE(beaten(head, 2));
+  EXPECT_FALSE(beaten(aside, 0));  // by nothing
 }
 
 TEST(FindHead, finds_nobody_where_nothing_is_seen) {
