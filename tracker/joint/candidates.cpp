@@ -158,8 +158,8 @@ struct Gaze {
 
 /// The upright ones of the two poses in which three LEDs are seen in three dots, as far as the head
 /// is small beside its distance (weak perspective: Alter, "3-D pose from 3 points using weak
-/// perspective", 1994, equations 1 to 3). Unlike those of P3P they are always there: noise does not
-/// take them away where they nearly meet. None of LEDs in a line.
+/// perspective", 1994). Unlike those of P3P they are always there: noise does not take them away
+/// where they nearly meet. None of LEDs in a line.
 void add_poses_of_three(const std::array<Ray, 3>& rays, const std::array<Vec3, 3>& leds,
                         double steepest_rad, std::vector<Rigid3>& poses) {
   Vec3 mean = Vec3::Zero();

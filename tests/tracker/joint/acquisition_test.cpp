@@ -9,6 +9,7 @@
 
 #include "tests/tracker/joint/scene.h"
 #include "tracker/joint/assignment.h"
+#include "tracker/joint/candidates.h"
 
 namespace vindu {
 namespace {
@@ -129,6 +130,26 @@ TEST(FindHead, does_with_two_leds_that_both_see_and_a_third_that_one_sees) {
 }
 
 /// What is left open, the turn about the line through them, the prior decides.
+/// One of the two under weak perspective, whatever the noise.
+TEST(Candidates, of_three_dots_of_one_camera_are_near_the_head) {
+  const auto cameras = cameras_behind(1);
+  Random random(8);
+  for (int i = 0; i < 500; ++i) {
+    const Rigid3 head = random_head(random, radians(60), radians(25));
+    const auto views = views_of(cameras, head, kThreeLeds, 0.5, random);
+    auto next = candidates_from_one(cameras, views[0], kThreeLeds, radians(120));
+    double nearest_m = 1e9, nearest_deg = 180;
+    while (const auto poses = next())
+      for (const Rigid3& pose : *poses) {
+        if (angle_deg(pose, head) > nearest_deg) continue;
+        nearest_deg = angle_deg(pose, head);
+        nearest_m = (pose.translation - head.translation).norm();
+      }
+    EXPECT_LT(nearest_deg, 20) << i;
+    EXPECT_LT(nearest_m, 0.3) << i;
+  }
+}
+
 /// From the left camera the middle LED and the right one stand nearly in one direction; the right
 /// camera sees the left one alone, at the edge of its picture.
 TEST(FindHead, overlooks_no_labelling_where_two_leds_stand_behind_each_other) {
